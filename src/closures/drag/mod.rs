@@ -1,0 +1,32 @@
+//! Force between the fluid and the grains.
+
+pub mod carman_kozeny;
+pub mod none;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::Info;
+pub use carman_kozeny::CarmanKozeny;
+
+/// Drag law.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case")]
+pub enum Drag {
+    /// The phases move together; nothing is computed.
+    #[default]
+    None,
+    /// Darcy's law with the permeability of Carman and Kozeny.
+    CarmanKozeny(CarmanKozeny),
+}
+
+impl Drag {
+    /// Catalogue entry of the law.
+    #[must_use]
+    pub fn info(&self) -> &'static Info {
+        match self {
+            Self::None => &none::INFO,
+            Self::CarmanKozeny(_) => &carman_kozeny::INFO,
+        }
+    }
+}

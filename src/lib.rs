@@ -1,0 +1,5 @@
+//! Sediment transport from several models of the same flow, with what each one costs and how far it can be trusted.
+
+pub mod closures;
+pub mod result;
+pub mod units;

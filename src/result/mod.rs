@@ -1,0 +1,16 @@
+//! What a run returns: profiles over z, series over iterations or time, named numbers, and where all of it came from.
+//! These are the only types that plots, reports, tables and comparisons accept.
+
+mod outcome;
+mod provenance;
+pub mod quantity;
+mod summary;
+mod table;
+mod watch;
+
+pub use outcome::{Failure, Outcome, SolveError};
+pub use provenance::Provenance;
+pub use quantity::Quantity;
+pub use summary::{Balance, Cost, ErrorReport, Reported, Results, Status, Summary, Validity};
+pub use table::{Profile, Series, Table, TableError};
+pub use watch::{Quiet, Snapshot, Watch};

@@ -1,0 +1,159 @@
+//! What a solver hands back: an [`Outcome`], or a [`Failure`] that keeps the last good state.
+
+use super::{Balance, Profile, Results, Series, Status, TableError, Validity};
+
+/// Everything that a run has to say, before it is written.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// done or stopped
+    pub status: Status,
+    /// columns over z
+    pub profile: Option<Profile>,
+    /// residual history or time series
+    pub series: Option<Series>,
+    /// named numbers
+    pub results: Results,
+    /// global balances: relative residuals
+    pub balances: Vec<Balance>,
+    /// closures that were used outside their range
+    pub validity: Vec<Validity>,
+}
+
+/// Why a method failed, with the numbers that say so.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SolveError {
+    /// The grains yield down to the bottom, which the model cannot hold.
+    #[error(
+        "the whole bed moves: the mobile layer would be {mobile_depth_m:.6} m deep where the bed is {bed_m:.6} m (z = 0 is reached)"
+    )]
+    WholeBedMoves {
+        /// depth to which the grains would move [m]
+        mobile_depth_m: f64,
+        /// thickness of the bed [m]
+        bed_m: f64,
+        /// largest drive with a static layer [Pa/m]
+        limit_pa_m: f64,
+    },
+    /// The drive exceeds the friction at every depth.
+    #[error(
+        "no part of the bed can stay at rest: the drive is {drive:.6} of the submerged weight, friction holds less than {limit:.6}"
+    )]
+    NoStaticBed {
+        /// dimensionless drive f = -dp/dx/((rho_p - rho_f) g)
+        drive: f64,
+        /// mu_s phi
+        limit: f64,
+    },
+    /// A granular film that accelerates without end.
+    #[error("no steady film: tan(slope) = {tangent:.6} is not below mu_2 = {mu_2:.6}")]
+    NoSteadyFilm {
+        /// tangent of the slope
+        tangent: f64,
+        /// largest friction coefficient of the material
+        mu_2: f64,
+    },
+    /// A wanted value that no drive gives.
+    #[error("no drive gives {quantity} = {wanted:.6}: with a static bed it stays below {largest:.6}")]
+    OutOfReach {
+        /// what was asked for
+        quantity: &'static str,
+        /// the wanted value
+        wanted: f64,
+        /// largest value that the model reaches
+        largest: f64,
+    },
+    /// A scalar equation whose root was not found.
+    #[error(
+        "the root of {equation} was not found after {iterations} iterations: residual {residual:.3e} between {low:.6e} and {high:.6e}"
+    )]
+    NoRoot {
+        /// the equation
+        equation: &'static str,
+        /// evaluations made
+        iterations: usize,
+        /// last relative residual
+        residual: f64,
+        /// lower end of the bracket
+        low: f64,
+        /// upper end of the bracket
+        high: f64,
+    },
+    /// A result that is not a finite number.
+    #[error("{column} is not finite in row {row}")]
+    NotFinite {
+        /// column name
+        column: &'static str,
+        /// row, from 0
+        row: usize,
+    },
+    /// Columns of unequal length: a defect of the program.
+    #[error("{column} has the wrong number of rows")]
+    Inconsistent {
+        /// column name
+        column: &'static str,
+    },
+}
+
+impl SolveError {
+    /// Stable identifier of the kind of failure, as in `summary.json`.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::WholeBedMoves { .. } => "whole-bed-moves",
+            Self::NoStaticBed { .. } => "no-static-bed",
+            Self::NoSteadyFilm { .. } => "no-steady-film",
+            Self::OutOfReach { .. } => "out-of-reach",
+            Self::NoRoot { .. } => "no-root",
+            Self::NotFinite { .. } => "not-finite",
+            Self::Inconsistent { .. } => "inconsistent",
+        }
+    }
+
+    /// What a user can change.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::WholeBedMoves { limit_pa_m, .. } => {
+                format!("drive it with less than {limit_pa_m:.4} Pa/m, or make the bed deeper (bed.level)")
+            }
+            Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
+            Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
+            Self::OutOfReach { .. } => "ask for less, or make the bed deeper".into(),
+            Self::NoRoot { .. } | Self::NotFinite { .. } | Self::Inconsistent { .. } => {
+                "this should not happen for a checked case: please report it with case.toml".into()
+            }
+        }
+    }
+}
+
+impl From<TableError> for SolveError {
+    fn from(error: TableError) -> Self {
+        match error {
+            TableError::NotFinite { column, row } => Self::NotFinite { column, row },
+            TableError::Length { column, .. } => Self::Inconsistent { column },
+            _ => Self::Inconsistent { column: "table" },
+        }
+    }
+}
+
+/// A failed run: the reason, and the last good state if there is one.
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct Failure {
+    /// where, when and with what values
+    pub error: SolveError,
+    /// what was computed before
+    pub last: Option<Box<Outcome>>,
+}
+
+impl From<SolveError> for Failure {
+    fn from(error: SolveError) -> Self {
+        Self { error, last: None }
+    }
+}
+
+impl From<TableError> for Failure {
+    fn from(error: TableError) -> Self {
+        SolveError::from(error).into()
+    }
+}

@@ -1,0 +1,92 @@
+//! The catalogue of everything that is reported: one name, one unit, one definition, the same in every model.
+
+/// A reported quantity. Its `name` carries the SI unit and is the column header or the key in `summary.json`.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Quantity {
+    /// column header or result key, with its unit: `u_fluid_m_s`
+    pub name: &'static str,
+    /// what it is, in words: `fluid velocity`
+    pub title: &'static str,
+    /// the papers' symbol
+    pub symbol: &'static str,
+    /// SI unit as text, `1` for a pure number
+    pub unit: &'static str,
+    /// its exact definition
+    pub definition: &'static str,
+}
+
+macro_rules! catalogue {
+    ($(#[$doc:meta])* $list:ident: $($id:ident = $name:literal, $title:literal, $symbol:literal, $unit:literal, $definition:literal;)*) => {
+        $(#[doc = concat!($title, ", ", $symbol, " [", $unit, "]: ", $definition)]
+        pub static $id: Quantity =
+            Quantity { name: $name, title: $title, symbol: $symbol, unit: $unit, definition: $definition };)*
+        $(#[$doc])*
+        pub static $list: &[&Quantity] = &[$(&$id),*];
+    };
+}
+
+catalogue! {
+    /// Columns of `profile.csv`, in the order in which they are written.
+    COLUMNS:
+    Z = "z_m", "elevation", "z", "m", "height normal to the bed; 0 at the bottom of the sediment layer, at the lower wall where there is no bed";
+    PHI = "phi", "solid fraction", "φ", "1", "solid volume per total volume; 0 in clear fluid";
+    U_FLUID = "u_fluid_m_s", "fluid velocity", "u_f", "m/s", "mean velocity of the fluid between the grains";
+    U_PARTICLE = "u_particle_m_s", "grain velocity", "u_p", "m/s", "mean velocity of the grains; undefined where there are none";
+    U_MIXTURE = "u_mixture_m_s", "mixture velocity", "U", "m/s", "volume mean (1 - φ) u_f + φ u_p";
+    FLUX = "flux_m_s", "solid flux density", "φ u_p", "m/s", "solid volume crossing a unit of area per unit of time";
+    TAU_VISCOUS = "tau_fluid_viscous_Pa", "viscous fluid stress", "τ_f", "Pa", "viscous shear stress of the fluid phase per total area";
+    TAU_REYNOLDS = "tau_reynolds_Pa", "Reynolds stress", "R_xz", "Pa", "turbulent shear stress of the fluid phase per total area";
+    TAU_PARTICLE = "tau_particle_Pa", "intergranular shear stress", "τ_p", "Pa", "shear stress carried by the grains, or by the yield stress of the material, per total area";
+    P_PARTICLE = "p_particle_Pa", "particle pressure", "P_p", "Pa", "normal stress carried by the grains per total area";
+    SHEAR_RATE = "shear_rate_particle_1_s", "shear rate of the grains", "|du_p/dz|", "1/s", "magnitude of the velocity gradient of the solid phase, of the material in a one-phase model";
+    INERTIAL_NUMBER = "inertial_number", "inertial number", "I", "1", "d |du_p/dz| sqrt(ρ_p/P_p)";
+    MIXING_LENGTH = "mixing_length_m", "mixing length", "l_m", "m", "length of the eddy-viscosity closure";
+    EDDY_VISCOSITY = "eddy_viscosity_m2_s", "eddy viscosity", "ν_t", "m²/s", "kinematic eddy viscosity";
+}
+
+catalogue! {
+    /// Columns of `series.csv`.
+    SERIES:
+    ITERATION = "iteration", "iteration", "n", "1", "evaluation of the residual by the root finder or solver";
+    RESIDUAL = "residual", "relative residual", "r", "1", "magnitude of the residual relative to the scale that the model states";
+}
+
+catalogue! {
+    /// Keys of `results` in `summary.json`.
+    RESULTS:
+    SHIELDS = "shields", "Shields number", "θ", "1", "total fluid shear stress at the bed level over (ρ_p - ρ_f) g d";
+    U_STAR = "u_star_m_s", "friction velocity", "u_*", "m/s", "sqrt(τ/ρ_f) of the fluid shear stress at the bed level or wall";
+    TRANSPORT_RATE = "transport_rate_m2_s", "transport rate", "q_p", "m²/s", "integral of φ u_p over z: solid volume without pores per unit width and time";
+    TRANSPORT_RATE_MASS = "transport_rate_kg_m_s", "transport rate by mass", "ρ_p q_p", "kg/(m s)", "solid mass per unit width and time";
+    TRANSPORT_RATE_BULK = "transport_rate_bulk_m2_s", "bulk transport rate", "q_p/φ", "m²/s", "transport rate with the pores of the bed";
+    TRANSPORT_RATE_DIMENSIONLESS = "transport_rate_dimensionless", "dimensionless transport rate", "Q*", "1", "q_p/(d sqrt((ρ_p/ρ_f - 1) g d)), g the full gravity";
+    FLUID_DISCHARGE = "fluid_discharge_m2_s", "fluid discharge", "q_f", "m²/s", "integral of (1 - φ) u_f over z, per unit width";
+    DISCHARGE = "discharge_m2_s", "discharge", "q", "m²/s", "integral of the velocity over z, per unit width";
+    U_MAX = "u_max_m_s", "largest velocity", "u_max", "m/s", "largest mixture velocity";
+    U_MAX_LEVEL = "u_max_level_m", "level of the largest velocity", "z(u_max)", "m", "elevation of the largest mixture velocity";
+    MEAN_VELOCITY = "mean_velocity_m_s", "mean velocity", "U_m", "m/s", "mean over the depth of the mixture velocity";
+    MOBILE_DEPTH = "mobile_depth_m", "mobile depth", "Y", "m", "h_p - h_c: thickness of the moving grains";
+    YIELD_LEVEL = "yield_level_m", "yield level", "h_c", "m", "elevation below which the grains are at rest";
+    BED_LEVEL = "bed_level_m", "bed level", "h_p", "m", "elevation of the top of the grains";
+    FLOW_HEIGHT = "flow_height_m", "flow height", "H", "m", "elevation of the upper wall or of the free surface";
+    PHI_INTERFACE = "phi_interface", "solid fraction under the interface", "φ(h_p)", "1", "limit of φ from below at the bed level";
+    SLIP_VELOCITY = "slip_velocity_m_s", "slip velocity", "U - u_p", "m/s", "mixture velocity minus grain velocity in the mobile layer, where it is constant";
+    DRIVE = "pressure_gradient_Pa_m", "driving pressure gradient", "-dp/dx", "Pa/m", "fall of pressure along the flow";
+    DRIVE_DIMENSIONLESS = "pressure_gradient_dimensionless", "dimensionless drive", "f", "1", "-dp/dx/((ρ_p - ρ_f) g)";
+    BINGHAM = "bingham_number", "Bingham number", "Bn", "1", "τ_0 H/(η U_m), on the mean velocity";
+    HALF_PLUG = "half_plug_m", "half-thickness of the plug", "z_0", "m", "distance from the centre to the yield surface";
+    PLUG_VELOCITY = "plug_velocity_m_s", "velocity of the plug", "u_plug", "m/s", "velocity of the unyielded core";
+    INERTIAL_NUMBER_FILM = "inertial_number", "inertial number", "I", "1", "d |du/dz| sqrt(ρ_p/P_p), uniform over the film";
+    SURFACE_VELOCITY = "surface_velocity_m_s", "surface velocity", "u(H)", "m/s", "velocity of the free surface";
+    ROUGHNESS = "roughness_m", "equivalent roughness", "k_s", "m", "Nikuradse's equivalent sand roughness";
+    ROUGHNESS_LENGTH = "roughness_length_m", "roughness length", "z_0", "m", "elevation at which the logarithmic profile vanishes, k_s/30";
+    REYNOLDS_ROUGHNESS = "roughness_reynolds", "roughness Reynolds number", "k_s+", "1", "u_* k_s/ν";
+    REYNOLDS_PARTICLE = "particle_reynolds", "particle Reynolds number", "Re_p", "1", "ρ_f |u_f - u_p| d/η with the largest slip between the phases, or |du_p/dz| d where the phases move together";
+    REYNOLDS = "reynolds", "Reynolds number", "Re", "1", "ρ_f U_m H/η";
+}
+
+/// The catalogued quantity of that name: a column, a series or a result.
+#[must_use]
+pub fn find(list: &'static [&'static Quantity], name: &str) -> Option<&'static Quantity> {
+    list.iter().copied().find(|q| q.name == name)
+}

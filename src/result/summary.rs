@@ -1,0 +1,176 @@
+//! `summary.json`: the numbers of a run with their units in their names.
+
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value, json};
+
+use super::{Provenance, Quantity};
+
+/// State of a run folder.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// being computed, or interrupted without a word
+    Running,
+    /// complete
+    Done,
+    /// the method failed
+    Failed,
+    /// stopped by the user
+    Stopped,
+}
+
+/// A result: its value in SI, the standard error of a mean, and why it is missing where it is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reported {
+    /// SI value; `null` where it is undefined
+    pub value: Option<f64>,
+    /// standard error, for means of fluctuating quantities
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stderr: Option<f64>,
+    /// why there is no value
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// Results by catalogued name, in the order in which they were reported.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Results(Vec<(String, Reported)>);
+
+impl Results {
+    /// Reports `value` [SI]; a value that is not finite becomes `null` with the reason "not finite".
+    pub fn set(&mut self, quantity: &'static Quantity, value: f64) {
+        if value.is_finite() {
+            self.0.push((quantity.name.into(), Reported { value: Some(value), stderr: None, reason: None }));
+        } else {
+            self.undefined(quantity, "not finite");
+        }
+    }
+
+    /// Reports that a quantity has no value here, and why.
+    pub fn undefined(&mut self, quantity: &'static Quantity, reason: &str) {
+        self.0.push((quantity.name.into(), Reported { value: None, stderr: None, reason: Some(reason.into()) }));
+    }
+
+    /// The SI value of a result, if it was reported and is defined.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<f64> {
+        self.0.iter().find(|(n, _)| n == name).and_then(|(_, r)| r.value)
+    }
+
+    /// All results in order.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &Reported)> {
+        self.0.iter().map(|(name, reported)| (name.as_str(), reported))
+    }
+}
+
+impl Serialize for Results {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_map(self.0.iter().map(|(n, r)| (n, r)))
+    }
+}
+
+impl<'de> Deserialize<'de> for Results {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Map::<String, Value>::deserialize(deserializer)?
+            .into_iter()
+            .map(|(name, value)| Ok((name, serde_json::from_value(value).map_err(serde::de::Error::custom)?)))
+            .collect::<Result<_, _>>()
+            .map(Self)
+    }
+}
+
+/// A global balance: the residual relative to the scale in its name.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Balance {
+    /// what is balanced: `momentum`, `transport_rate`
+    pub name: String,
+    /// relative residual
+    pub relative: f64,
+    /// how it was evaluated
+    pub how: String,
+}
+
+/// A closure that was used outside the range its source gives.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Validity {
+    /// `family/law`
+    pub closure: String,
+    /// the variable that left the range
+    pub variable: String,
+    /// its value furthest outside
+    pub value: f64,
+    /// the range, in words
+    pub range: String,
+    /// where [m]
+    pub z_m: Option<f64>,
+}
+
+/// What it cost.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Cost {
+    /// wall time of the solver [s]
+    pub solve_s: f64,
+    /// wall time of everything before the summary was written [s]
+    pub total_s: f64,
+    /// peak resident memory [MB], where the system tells
+    pub peak_memory_mb: Option<f64>,
+    /// levels, cells times steps, or grains times steps
+    pub work_units: f64,
+}
+
+/// Why a run failed, as it stands in `summary.json` and in the answer of `--json`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorReport {
+    /// stable identifier
+    pub code: String,
+    /// one sentence with numbers
+    pub message: String,
+    /// dotted path in the case file
+    pub path: Option<String>,
+    /// line in the case file, from 1
+    pub line: Option<usize>,
+    /// what is allowed there
+    pub allowed: Option<String>,
+    /// what to do
+    pub hint: Option<String>,
+}
+
+/// The content of `summary.json`. Only `cost` and `provenance` may differ between identical runs.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// version of this layout
+    pub format: u32,
+    /// state of the run
+    pub status: Status,
+    /// name of the case
+    pub case: String,
+    /// model in words: `exact/ouriemi (two-fluid)`
+    pub model: String,
+    /// named numbers
+    pub results: Results,
+    /// global balances
+    pub balances: Vec<Balance>,
+    /// closures used outside their range
+    pub validity: Vec<Validity>,
+    /// every small number that the run used
+    pub regularisation: Map<String, Value>,
+    /// why it failed
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub error: Option<ErrorReport>,
+    /// what it cost
+    pub cost: Cost,
+    /// where it came from
+    pub provenance: Provenance,
+}
+
+impl Summary {
+    /// Layout version that this program writes.
+    pub const FORMAT: u32 = 1;
+
+    /// The summary as one JSON object.
+    #[must_use]
+    pub fn to_json(&self) -> Value {
+        serde_json::to_value(self)
+            .unwrap_or_else(|error| json!({ "status": "failed", "unwritable": error.to_string() }))
+    }
+}
