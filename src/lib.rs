@@ -1,5 +1,46 @@
 //! Sediment transport from several models of the same flow, with what each one costs and how far it can be trusted.
+//!
+//! ```text
+//!  cases/*.toml ─► case ─► problem ─► closures ─► continuum ─► result ─► output, plot
+//!    (text)      (spans)  (SI, checked)  (laws)                      ─► validate
+//! ```
+//!
+//! The drawing shows the data. Imports go only upward in this list, and a test holds every `use crate::` against it:
+//!
+//! | rooms | what they know |
+//! |---|---|
+//! | [`units`], [`numerics`], [`runtime`] | quantities as text; methods that know no physics; cost and interruption |
+//! | [`closures`], [`result`] | laws; profiles, series, summaries |
+//! | [`case`] | case files: text, spans, schema, diagnostics. The only room that knows TOML |
+//! | [`problem`] | checked, immutable values in SI |
+//! | [`continuum`] | models |
+//! | `run` | [`run()`]: the one entry point |
+//! | [`plot`] | figures and pages |
+//! | [`output`] | the folder of a run |
+//! | [`validate`] | re-runs what the cases claim |
+//! | [`cli`] | the command line, one file per verb |
+//!
+//! ```
+//! use bedload::{case::Case, problem::Problem, result::Quiet, run};
+//!
+//! let case = Case::load("exact_1d_aussillous", &["flow.pressure_gradient=80 Pa/m".into()]).unwrap();
+//! let problem = Problem::new(&case).unwrap();
+//! let outcome = run(&problem, &mut Quiet).unwrap();
+//! assert!(outcome.results.get("transport_rate_m2_s").unwrap() > 0.0);
+//! ```
 
+pub mod case;
+pub mod cli;
 pub mod closures;
+pub mod continuum;
+pub mod numerics;
+pub mod output;
+pub mod plot;
+pub mod problem;
 pub mod result;
+mod run;
+pub mod runtime;
 pub mod units;
+pub mod validate;
+
+pub use run::{closures as laws, equations, run};

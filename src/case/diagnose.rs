@@ -1,0 +1,382 @@
+//! Compares a document with the schema of its model: every violation at once, each with its place.
+
+use serde_json::{Map, Value, json};
+
+use super::document::{Data, Document, Node, Span};
+use super::fault::{Fault, Violation};
+use super::schema::{self, SCENES, SceneSchema};
+use crate::units;
+
+/// The document in plain SI, or what is wrong with it. The name of the scene comes with it.
+pub(super) fn diagnose(document: &Document) -> Result<(&'static str, Value), Vec<Violation>> {
+    let mut walk = Walk { scene: None, violations: Vec::new() };
+    if matches!(&document.root.data, Data::Table(entries) if entries.is_empty()) {
+        walk.report(Fault::Empty, "", &document.root.value);
+        return Err(walk.violations);
+    }
+    let scene = walk.choose(document);
+    let Some(scene) = scene else {
+        walk.without_scene(document);
+        return Err(walk.violations);
+    };
+    walk.scene = Some(scene);
+    let value = walk.value(&document.root, &scene.schema, "");
+    if walk.violations.is_empty() { Ok((scene.name, value)) } else { Err(walk.violations) }
+}
+
+/// The name in `candidates` that `word` most likely stands for, if one is close.
+#[must_use]
+pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let word = word.to_lowercase();
+    candidates
+        .into_iter()
+        .map(|c| (strsim::damerau_levenshtein(&word, &c.to_lowercase()), c))
+        .min_by_key(|(distance, _)| *distance)
+        .filter(|(distance, c)| *distance <= (c.chars().count().max(word.chars().count()) / 3).max(1))
+        .map(|(_, c)| c.to_owned())
+}
+
+struct Walk {
+    scene: Option<&'static SceneSchema>,
+    violations: Vec<Violation>,
+}
+
+impl Walk {
+    fn report(&mut self, fault: Fault, path: &str, span: &Span) {
+        self.violations.push(Violation::new(fault, path.to_owned(), span.clone()));
+    }
+
+    /// The scene that `model.kind` and `model.solution` name; says what is wrong with them if none.
+    fn choose(&mut self, document: &Document) -> Option<&'static SceneSchema> {
+        let tag = |key: &str| match document.node(&format!("model.{key}")).map(|n| &n.data) {
+            Some(Data::Text(word)) => Some(word.as_str()),
+            _ => None,
+        };
+        let mut kinds: Vec<&str> = SCENES.iter().map(|s| s.tags().0).collect();
+        kinds.dedup();
+        let of_kind: Vec<&SceneSchema> = SCENES.iter().filter(|s| Some(s.tags().0) == tag("kind")).collect();
+        if of_kind.is_empty() {
+            self.tag(document, "kind", &kinds, "the model that is solved");
+            return None;
+        }
+        let solutions: Vec<&str> = of_kind.iter().filter_map(|s| s.tags().1).collect();
+        let found = of_kind.iter().find(|s| s.tags().1.is_none() || s.tags().1 == tag("solution"));
+        if found.is_none() {
+            self.tag(document, "solution", &solutions, "the closed form");
+        }
+        found.map(|s| {
+            let name = s.name;
+            SCENES.iter().find(|s| s.name == name)
+        })?
+    }
+
+    /// Says what is wrong with `model.<key>`, which should be one of `allowed`.
+    fn tag(&mut self, document: &Document, key: &str, allowed: &[&str], description: &str) {
+        let path = format!("model.{key}");
+        let span = document.locate(&path);
+        let allowed: Vec<String> = allowed.iter().map(|&a| a.to_owned()).collect();
+        let fault = match document.node(&path).map(|n| &n.data) {
+            Some(Data::Text(word)) => Fault::UnknownWord {
+                nearest: nearest(word, allowed.iter().map(String::as_str)),
+                name: path.clone(),
+                word: word.clone(),
+                allowed,
+            },
+            Some(other) => Fault::WrongType { name: path.clone(), found: other.kind(), expected: allowed.join(", ") },
+            None if document.node("model").is_none() => Fault::Missing {
+                what: "table",
+                name: "[model]".into(),
+                description: "the model that is solved".into(),
+                allowed: format!("[model] with kind = \"{}\"", allowed.join("\" | \"")),
+            },
+            None => Fault::Missing {
+                what: "key",
+                name: format!("{key} in [model]"),
+                description: description.into(),
+                allowed: allowed.join(", "),
+            },
+        };
+        self.report(fault, &path, &span);
+    }
+
+    /// Without a model only the names of tables can be checked.
+    fn without_scene(&mut self, document: &Document) {
+        let Data::Table(entries) = &document.root.data else { return };
+        let mut names: Vec<&str> = Vec::new();
+        for (name, _) in SCENES.iter().flat_map(|s| schema::properties(&s.schema)) {
+            if !names.contains(&name.as_str()) {
+                names.push(name);
+            }
+        }
+        for (name, node) in entries.iter().filter(|(name, _)| !names.contains(&name.as_str())) {
+            let fault = Fault::Unknown {
+                what: if matches!(node.data, Data::Table(_)) { "table" } else { "key" },
+                name: name.clone(),
+                place: String::new(),
+                nearest: nearest(name, names.iter().copied()),
+                elsewhere: None,
+                allowed: names.iter().map(|&n| n.to_owned()).collect(),
+            };
+            self.report(fault, name, &node.key);
+        }
+    }
+
+    /// The value of `node` in plain SI; reports whatever is wrong on the way.
+    fn value(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
+        if let Some(alternatives) = schema::alternatives(schema) {
+            return self.tagged(node, &alternatives, path);
+        }
+        if let Some(constants) = schema::constants(schema) {
+            return self.word(node, &constants, path);
+        }
+        match schema::text(schema, "type") {
+            "object" => self.table(node, schema, path),
+            "array" => self.array(node, schema, path),
+            "number" => self.number(node, schema, path),
+            "integer" => self.integer(node, schema, path),
+            "string" => match &node.data {
+                Data::Text(text) => Value::String(text.clone()),
+                _ => self.wrong(node, path, "a text"),
+            },
+            _ => match node.data {
+                Data::Boolean(b) => Value::Bool(b),
+                _ => self.wrong(node, path, "true or false"),
+            },
+        }
+    }
+
+    fn wrong(&mut self, node: &Node, path: &str, expected: &str) -> Value {
+        let fault = Fault::WrongType { name: shown(path), found: node.data.kind(), expected: expected.into() };
+        self.report(fault, path, &node.value);
+        Value::Null
+    }
+
+    fn word(&mut self, node: &Node, constants: &[(&str, &str)], path: &str) -> Value {
+        let allowed = || constants.iter().map(|(c, _)| (*c).to_owned()).collect::<Vec<_>>();
+        match &node.data {
+            Data::Text(word) if constants.iter().any(|(c, _)| c == word) => Value::String(word.clone()),
+            Data::Text(word) => {
+                let fault = Fault::UnknownWord {
+                    name: shown(path),
+                    word: word.clone(),
+                    nearest: nearest(word, constants.iter().map(|(c, _)| *c)),
+                    allowed: allowed(),
+                };
+                self.report(fault, path, &node.value);
+                Value::Null
+            }
+            _ => self.wrong(node, path, &allowed().join(", ")),
+        }
+    }
+
+    fn tagged(&mut self, node: &Node, alternatives: &[(&str, &Value)], path: &str) -> Value {
+        let Data::Table(entries) = &node.data else { return self.wrong(node, path, "a table") };
+        let laws: Vec<&str> = alternatives.iter().map(|(law, _)| *law).collect();
+        let law_path = join(path, "law");
+        match entries.iter().find(|(k, _)| k == "law").map(|(_, n)| n) {
+            Some(Node { data: Data::Text(law), value, .. }) => {
+                if let Some((_, schema)) = alternatives.iter().find(|(name, _)| name == law) {
+                    return self.table(node, schema, path);
+                }
+                let fault = Fault::UnknownWord {
+                    name: shown(&law_path),
+                    word: law.clone(),
+                    nearest: nearest(law, laws.iter().copied()),
+                    allowed: laws.iter().map(|&l| l.to_owned()).collect(),
+                };
+                self.report(fault, &law_path, value);
+            }
+            Some(other) => {
+                self.wrong(other, &law_path, &laws.join(", "));
+            }
+            None => {
+                let fault = Fault::Missing {
+                    what: "key",
+                    name: format!("law in [{path}]"),
+                    description: "the law of the closure".into(),
+                    allowed: laws.join(", "),
+                };
+                self.report(fault, &law_path, &node.key);
+            }
+        }
+        Value::Null
+    }
+
+    fn table(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
+        let Data::Table(entries) = &node.data else { return self.wrong(node, path, "a table") };
+        let mut object = Map::new();
+        for (name, child) in entries {
+            let child_path = join(path, name);
+            match schema.get("properties").and_then(|p| p.get(name)) {
+                Some(child_schema) if child_schema.get("const").is_some() => {
+                    object.insert(name.clone(), child_schema["const"].clone());
+                }
+                Some(child_schema) => {
+                    let value = self.value(child, child_schema, &child_path);
+                    object.insert(name.clone(), value);
+                }
+                None => self.unknown(name, child, schema, path),
+            }
+        }
+        for name in schema.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str) {
+            if !object.contains_key(name) {
+                self.missing(name, &schema["properties"][name], path, &node.key);
+            }
+        }
+        if let Some(drives) = schema::drives(schema) {
+            let given: Vec<&str> = drives.iter().copied().filter(|d| object.contains_key(*d)).collect();
+            if given.len() != 1 {
+                let mut spans: Vec<Span> = given
+                    .iter()
+                    .filter_map(|d| entries.iter().find(|(k, _)| k == d))
+                    .map(|(_, n)| n.key.clone())
+                    .collect();
+                if spans.is_empty() {
+                    spans.push(node.key.clone());
+                }
+                let owned = |names: &[&str]| names.iter().map(|&n| n.to_owned()).collect();
+                let fault = Fault::Drives { given: owned(&given), allowed: owned(&drives) };
+                self.violations.push(Violation { fault, path: path.to_owned(), spans });
+            }
+        }
+        Value::Object(object)
+    }
+
+    fn unknown(&mut self, name: &str, node: &Node, schema: &Value, path: &str) {
+        let what = if path.is_empty() && matches!(node.data, Data::Table(_) | Data::Array(_)) { "table" } else { "key" };
+        let allowed: Vec<String> = schema::properties(schema).map(|(k, _)| k.clone()).collect();
+        let child_path = join(path, name);
+        let users: Vec<String> =
+            SCENES.iter().filter(|s| has(&s.schema, &child_path)).map(|s| s.name.to_owned()).collect();
+        let fault = match self.scene {
+            Some(scene) if !users.is_empty() && !users.iter().any(|u| u == scene.name) => {
+                Fault::NotUsed { what, name: name.into(), model: scene.name.into(), users, allowed }
+            }
+            scene => Fault::Unknown {
+                what,
+                name: name.into(),
+                place: if path.is_empty() { String::new() } else { format!(" in [{path}]") },
+                nearest: nearest(name, allowed.iter().map(String::as_str)),
+                elsewhere: scene.and_then(|s| elsewhere(&s.schema, name, path)),
+                allowed,
+            },
+        };
+        self.report(fault, &child_path, &node.key);
+    }
+
+    fn missing(&mut self, name: &str, schema: &Value, path: &str, at: &Span) {
+        let is_table = path.is_empty() && (schema.get("properties").is_some() || schema::alternatives(schema).is_some());
+        let allowed = if is_table {
+            let keys: Vec<&str> = schema::properties(schema).map(|(k, _)| k.as_str()).collect();
+            format!("a table with {}", keys.join(", "))
+        } else {
+            expected(schema)
+        };
+        let fault = Fault::Missing {
+            what: if is_table { "table" } else { "key" },
+            name: match (is_table, path) {
+                (true, _) => format!("[{name}]"),
+                (false, "") => name.into(),
+                (false, table) => format!("{name} in [{table}]"),
+            },
+            description: schema::text(schema, "description").into(),
+            allowed,
+        };
+        self.report(fault, &join(path, name), at);
+    }
+
+    fn array(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
+        let Data::Array(items) = &node.data else { return self.wrong(node, path, &format!("tables [[{path}]]")) };
+        let items = items.iter().enumerate();
+        Value::Array(items.map(|(i, item)| self.value(item, &schema["items"], &join(path, &i.to_string()))).collect())
+    }
+
+    fn number(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
+        let unit = schema::text(schema, "x-unit");
+        let x = match &node.data {
+            Data::Integer(i) => *i as f64,
+            Data::Float(x) => *x,
+            Data::Text(text) if !unit.is_empty() => match units::parse_quantity(text, unit) {
+                Ok(x) => x,
+                Err(error) => {
+                    let fault = Fault::Unit { name: shown(path), error, unit: unit.into() };
+                    self.report(fault, path, &node.value);
+                    return Value::Null;
+                }
+            },
+            _ => return self.wrong(node, path, &expected(schema)),
+        };
+        if !x.is_finite() {
+            self.report(Fault::NotFinite { name: shown(path), allowed: schema::range(schema) }, path, &node.value);
+        } else if !schema::inside(schema, x) {
+            let fault = Fault::OutOfRange { name: shown(path), value: x, allowed: schema::range(schema) };
+            self.report(fault, path, &node.value);
+        }
+        json!(x)
+    }
+
+    fn integer(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
+        let Data::Integer(i) = node.data else { return self.wrong(node, path, &expected(schema)) };
+        if !schema::inside(schema, i as f64) {
+            let fault = Fault::OutOfRange { name: shown(path), value: i as f64, allowed: schema::range(schema) };
+            self.report(fault, path, &node.value);
+            return Value::Null;
+        }
+        json!(i)
+    }
+}
+
+/// What a value of this schema may be, in words.
+fn expected(schema: &Value) -> String {
+    if let Some(constants) = schema::constants(schema) {
+        return constants.iter().map(|(c, _)| *c).collect::<Vec<_>>().join(", ");
+    }
+    match schema::text(schema, "type") {
+        "number" if schema.get("x-unit").is_some() => schema::range(schema),
+        "number" => "a number".into(),
+        "integer" => format!("a whole number, {}", schema::range(schema)),
+        "string" => "a text".into(),
+        "object" => "a table".into(),
+        _ => schema::text(schema, "description").into(),
+    }
+}
+
+/// Path as shown to a reader: `check[0].expect`.
+fn shown(path: &str) -> String {
+    let mut text = String::new();
+    for segment in path.split('.') {
+        if segment.bytes().all(|b| b.is_ascii_digit()) {
+            text += &format!("[{segment}]");
+        } else {
+            if !text.is_empty() {
+                text.push('.');
+            }
+            text += segment;
+        }
+    }
+    text
+}
+
+fn join(path: &str, name: &str) -> String {
+    if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
+}
+
+/// Whether a schema has something at `path`, in any alternative of a tagged table.
+fn has(schema: &Value, path: &str) -> bool {
+    let (first, rest) = path.split_once('.').map_or((path, None), |(a, b)| (a, Some(b)));
+    if first.bytes().all(|b| b.is_ascii_digit()) {
+        return schema.get("items").is_some_and(|items| rest.is_none_or(|rest| has(items, rest)));
+    }
+    let here = schema.get("properties").and_then(|p| p.get(first));
+    here.is_some_and(|s| rest.is_none_or(|rest| has(s, rest)))
+        || schema::alternatives(schema).is_some_and(|a| a.iter().any(|(_, s)| has(s, path)))
+}
+
+/// The table of the scene that has a key of this name, where it is not the table of `path`.
+fn elsewhere(schema: &Value, name: &str, path: &str) -> Option<String> {
+    schema::properties(schema)
+        .filter(|(table, s)| table.as_str() != path && schema::properties(s).any(|(k, _)| k == name))
+        .map(|(table, s)| if s.get("items").is_some() { format!("[[{table}]]") } else { format!("[{table}]") })
+        .next()
+        .or_else(|| schema::properties(schema).any(|(k, _)| k == name && !path.is_empty()).then(|| "the top of the file".into()))
+}

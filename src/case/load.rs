@@ -1,0 +1,92 @@
+//! From a file, a shipped case or a text to a checked case.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::diagnose::{diagnose, nearest};
+use super::document::{Document, Span, Text};
+use super::fault::{Fault, Violation};
+use super::{Case, CaseError, shipped};
+
+/// Largest accepted case file [bytes].
+const LIMIT: u64 = 1 << 20;
+
+impl Case {
+    /// Loads `name`, a file or a shipped case, applies `--set` overrides and checks it.
+    ///
+    /// # Errors
+    /// Every violation of the file, or why it cannot be read.
+    pub fn load(name: &str, overrides: &[String]) -> Result<Self, CaseError> {
+        let path = Path::new(name);
+        if path.exists() || name.contains(['/', '\\']) {
+            let content = read(path).map_err(|fault| CaseError::without_text(name, fault))?;
+            let stem = path.file_stem().map_or_else(|| "case".into(), |s| s.to_string_lossy().into_owned());
+            return Self::parse(&stem, name, content, overrides);
+        }
+        let stem = name.strip_suffix(".toml").unwrap_or(name);
+        match shipped::find(stem) {
+            Some(content) => Self::parse(stem, name, content.to_owned(), overrides),
+            None => {
+                let fault = Fault::NoSuchCase { name: name.into(), nearest: nearest(stem, shipped::names()) };
+                Err(CaseError::without_text(name, fault))
+            }
+        }
+    }
+
+    /// Checks the text of a case: `name` is its stem, `source` what diagnostics call it.
+    ///
+    /// # Errors
+    /// Every violation at once.
+    pub fn parse(name: &str, source: &str, content: String, overrides: &[String]) -> Result<Self, CaseError> {
+        let (mut document, mut violations) = Document::parse(source, content);
+        let broken: Vec<usize> = violations.iter().filter_map(|v| document.line(&v.spans[0])).collect();
+        for argument in overrides {
+            if let Err(violation) = document.set(argument) {
+                violations.push(violation);
+            }
+        }
+        match diagnose(&document) {
+            Ok((scene, value)) if violations.is_empty() => {
+                Self::build(name, source, scene, value, document, overrides)
+            }
+            Ok(_) => Err(CaseError { document, violations }),
+            Err(more) => {
+                // Where the syntax is broken, what is missing or mistyped may only be unreadable.
+                let trusted = |v: &Violation| {
+                    broken.is_empty()
+                        || !(matches!(v.fault, Fault::Missing { .. } | Fault::Drives { .. } | Fault::Empty)
+                            || document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)))
+                };
+                violations.extend(more.into_iter().filter(trusted));
+                Err(CaseError { document, violations })
+            }
+        }
+    }
+}
+
+/// Reads a case file as text.
+fn read(path: &Path) -> Result<String, Fault> {
+    let unreadable = |error: std::io::Error| Fault::Unreadable { file: path.display().to_string(), reason: error.to_string() };
+    if path.is_dir() {
+        return Err(Fault::Unreadable { file: path.display().to_string(), reason: "it is a folder".into() });
+    }
+    let mut bytes = Vec::new();
+    File::open(path).map_err(unreadable)?.take(LIMIT + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() as u64 > LIMIT {
+        return Err(Fault::TooLarge { limit: LIMIT });
+    }
+    if let Some(offset) = bytes.iter().position(|b| *b == 0) {
+        return Err(Fault::Binary { offset });
+    }
+    String::from_utf8(bytes).map_err(|error| Fault::NotUtf8 { offset: error.utf8_error().valid_up_to() })
+}
+
+impl CaseError {
+    /// A fault of the file as a whole, of which there is nothing to show.
+    fn without_text(name: &str, fault: Fault) -> Self {
+        let (mut document, _) = Document::parse(name, String::new());
+        document.texts = vec![Text { name: name.into(), content: String::new() }];
+        Self { document, violations: vec![Violation::new(fault, String::new(), Span { text: 0, bytes: 0..0 })] }
+    }
+}

@@ -1,0 +1,96 @@
+//! Case files: from text to typed tables in SI, with every violation at once. The only room that knows TOML.
+//!
+//! ```text
+//! text ─► document (tree with spans, --set applied) ─► diagnose (against the schema) ─► tables (typed, SI)
+//! ```
+//!
+//! The schema is generated from the structs in [`tables`], and the same schema checks the files, so the two cannot drift.
+
+mod diagnose;
+mod document;
+mod fault;
+mod load;
+mod reference;
+mod render;
+pub mod scene;
+pub mod schema;
+pub mod shipped;
+pub mod tables;
+
+pub use document::{Document, Span, Text};
+pub use diagnose::nearest;
+pub use fault::{Fault, Violation};
+pub use reference::reference;
+pub use scene::Scene;
+
+/// A case that its schema accepts: typed tables, and the text they came from.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// stem of the file or name of the shipped case
+    pub name: String,
+    /// file or shipped case as the user named it
+    pub source: String,
+    /// `--set` arguments
+    pub overrides: Vec<String>,
+    /// `kind` or `kind/solution`
+    pub model: &'static str,
+    /// the tables
+    pub scene: Scene,
+    document: Document,
+}
+
+/// A case that cannot be used: the text and everything that is wrong with it.
+#[derive(Debug, thiserror::Error)]
+#[error("{} in {}", count(violations.len()), document.texts[0].name)]
+pub struct CaseError {
+    document: Document,
+    /// what is wrong, in the order of the checks
+    pub violations: Vec<Violation>,
+}
+
+fn count(n: usize) -> String {
+    if n == 1 { "1 error".into() } else { format!("{n} errors") }
+}
+
+impl Case {
+    fn build(
+        name: &str,
+        source: &str,
+        model: &'static str,
+        value: serde_json::Value,
+        document: Document,
+        overrides: &[String],
+    ) -> Result<Self, CaseError> {
+        match Scene::build(model, value) {
+            Ok(scene) => Ok(Self {
+                name: name.into(),
+                source: source.into(),
+                overrides: overrides.to_vec(),
+                model,
+                scene,
+                document,
+            }),
+            Err(error) => {
+                let fault = Fault::Syntax { message: error.to_string(), quoted: None };
+                let violation = Violation::new(fault, String::new(), document.root.value.clone());
+                Err(CaseError { document, violations: vec![violation] })
+            }
+        }
+    }
+
+    /// The case with every default filled in, in SI: equal texts are equal cases.
+    #[must_use]
+    pub fn resolved(&self) -> String {
+        toml::to_string(&self.scene).unwrap_or_default()
+    }
+
+    /// The case as an error: faults that only a comparison of its values shows, by path.
+    #[must_use]
+    pub fn refuse(self, faults: Vec<(String, Fault)>) -> CaseError {
+        let violations = faults
+            .into_iter()
+            .map(|(path, fault)| { let span = self.document.locate(&path); Violation::new(fault, path, span) })
+            .collect();
+        CaseError { document: self.document, violations }
+    }
+}

@@ -1,0 +1,131 @@
+//! Which tables each model takes: one struct per model, and the schema as their `oneOf`.
+
+use schemars::JsonSchema;
+use schemars::generate::SchemaSettings;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::tables::{
+    About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamModel, Check, Film, FilmClosures, FilmFlow, Fluid, Grains,
+    Grid, LaminarFlow, LogLawModel, OuriemiModel, PlaneFlow, WallClosures, WallFlow,
+};
+
+macro_rules! scenes {
+    ($($(#[$doc:meta])* $name:ident ($scene:literal) { $($(#[$attribute:meta])* $table:ident: $type:ty,)* })*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+            pub struct $name {
+                /// Version of the file format.
+                #[schemars(extend("minimum" = 1, "maximum" = 1))]
+                pub format: u32,
+                /// What the case is about.
+                pub case: About,
+                $($(#[$attribute])* pub $table: $type,)*
+                /// Levels of the profile.
+                #[serde(default)]
+                pub grid: Grid,
+                /// Numbers that the case must give.
+                #[serde(default, skip_serializing_if = "Vec::is_empty")]
+                pub check: Vec<Check>,
+            }
+        )*
+
+        /// The tables of a case: which ones there are depends on the model.
+        #[derive(Clone, Debug, PartialEq, Serialize)]
+        #[serde(untagged)]
+        pub enum Scene {
+            $($(#[$doc])* $name($name),)*
+        }
+
+        impl Scene {
+            /// Name (`kind` or `kind/solution`) and JSON Schema of each scene.
+            pub(super) fn schemas() -> Vec<(&'static str, Value)> {
+                vec![$(($scene, schema_of::<$name>())),*]
+            }
+
+            /// The tables of the scene `name`, from a checked and normalised document.
+            ///
+            /// # Errors
+            /// What the checks let through and the types do not take: a defect of the schema.
+            pub(super) fn build(name: &str, document: Value) -> Result<Self, serde_json::Error> {
+                match name {
+                    $($scene => serde_json::from_value(document).map(Self::$name),)*
+                    other => Err(serde::de::Error::custom(format!("no scene {other}"))),
+                }
+            }
+
+            /// Numbers that the case must give.
+            #[must_use]
+            pub fn checks(&self) -> &[Check] {
+                match self { $(Self::$name(scene) => &scene.check),* }
+            }
+
+            /// What the case is about.
+            #[must_use]
+            pub fn about(&self) -> &About {
+                match self { $(Self::$name(scene) => &scene.case),* }
+            }
+        }
+    };
+}
+
+scenes! {
+    /// Newtonian fluid over a Coulomb bed between two planes, in closed form.
+    Ouriemi ("exact/ouriemi") {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: Bed,
+        /// Geometry and drive.
+        flow: LaminarFlow,
+        /// The model.
+        model: OuriemiModel,
+        /// Laws.
+        closures: BedClosures,
+    }
+    /// Bingham fluid between two planes, in closed form.
+    BinghamPlane ("exact/bingham-plane") {
+        /// The material.
+        fluid: BinghamFluid,
+        /// Geometry and drive.
+        flow: PlaneFlow,
+        /// The model.
+        model: BinghamModel,
+    }
+    /// Dry grains down a slope, in closed form.
+    BagnoldFilm ("exact/bagnold-film") {
+        /// The grains.
+        grains: Grains,
+        /// The film.
+        bed: Film,
+        /// Geometry and drive.
+        flow: FilmFlow,
+        /// The model.
+        model: BagnoldModel,
+        /// Laws.
+        closures: FilmClosures,
+    }
+    /// Turbulent layer of constant stress over a rough wall, in closed form.
+    LogLaw ("exact/log-law") {
+        /// The fluid.
+        fluid: Fluid,
+        /// Geometry and drive.
+        flow: WallFlow,
+        /// The model.
+        model: LogLawModel,
+        /// Laws.
+        closures: WallClosures,
+    }
+}
+
+fn schema_of<T: JsonSchema>() -> Value {
+    let settings = SchemaSettings::draft2020_12().with(|s| {
+        s.inline_subschemas = true;
+        s.meta_schema = None;
+    });
+    settings.into_generator().into_root_schema_for::<T>().to_value()
+}
+

@@ -1,0 +1,157 @@
+//! The JSON Schema of case files: generated from the tables, used by the diagnostics, published for editors.
+
+use std::sync::LazyLock;
+
+use serde_json::{Map, Value, json};
+
+use super::scene::Scene;
+
+/// The schema of one scene.
+pub(super) struct SceneSchema {
+    /// `kind` or `kind/solution`
+    pub name: &'static str,
+    /// its JSON Schema
+    pub schema: Value,
+}
+
+impl SceneSchema {
+    /// `kind` and, if there is one, `solution`.
+    pub fn tags(&self) -> (&'static str, Option<&'static str>) {
+        self.name.split_once('/').map_or((self.name, None), |(kind, solution)| (kind, Some(solution)))
+    }
+}
+
+/// All scenes, closed: an object has no other keys than its properties.
+pub(super) static SCENES: LazyLock<Vec<SceneSchema>> = LazyLock::new(|| {
+    Scene::schemas()
+        .into_iter()
+        .map(|(name, mut schema)| {
+            close(&mut schema);
+            SceneSchema { name, schema }
+        })
+        .collect()
+});
+
+/// Name and one-line description of each model.
+pub fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
+    SCENES.iter().map(|scene| (scene.name, text(&scene.schema, "description")))
+}
+
+/// Objects take no other keys; `null` is not a TOML value.
+fn close(schema: &mut Value) {
+    match schema {
+        Value::Object(object) => {
+            if object.contains_key("properties") {
+                object.insert("additionalProperties".into(), false.into());
+            }
+            if let Some(Value::Array(types)) = object.get_mut("type") {
+                types.retain(|t| t != "null");
+                if let [only] = types.as_slice() {
+                    let only = only.clone();
+                    object.insert("type".into(), only);
+                }
+            }
+            object.values_mut().for_each(close);
+        }
+        Value::Array(items) => items.iter_mut().for_each(close),
+        _ => {}
+    }
+}
+
+/// The published schema: `oneOf` the scenes, quantities as numbers or texts.
+#[must_use]
+pub fn published() -> Value {
+    let scenes: Vec<Value> = SCENES
+        .iter()
+        .map(|scene| {
+            let mut schema = scene.schema.clone();
+            quantities(&mut schema);
+            schema
+        })
+        .collect();
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "bedload case",
+        "description": "A case file of bedload, format 1. A quantity is a number in SI or a text with a unit; x-unit is its SI unit.",
+        "oneOf": scenes,
+    })
+}
+
+fn quantities(schema: &mut Value) {
+    match schema {
+        Value::Object(object) => {
+            if object.contains_key("x-unit") && object.get("type").is_some_and(|t| t == "number") {
+                object.insert("type".into(), json!(["number", "string"]));
+                object.insert("pattern".into(), "^\\s*[-+\u{2212}]?(\\d+\\.?\\d*|\\.\\d+)([eE][-+]?\\d+)?.*$".into());
+            }
+            object.values_mut().for_each(quantities);
+        }
+        Value::Array(items) => items.iter_mut().for_each(quantities),
+        _ => {}
+    }
+}
+
+/// Properties of an object schema.
+pub(super) fn properties(schema: &Value) -> impl Iterator<Item = (&String, &Value)> {
+    schema.get("properties").and_then(Value::as_object).into_iter().flat_map(Map::iter)
+}
+
+/// The text of a schema keyword, or "".
+pub(super) fn text<'a>(schema: &'a Value, keyword: &str) -> &'a str {
+    schema.get(keyword).and_then(Value::as_str).unwrap_or_default()
+}
+
+/// The choices of a `oneOf` of constants, with their descriptions.
+pub(super) fn constants(schema: &Value) -> Option<Vec<(&str, &str)>> {
+    let choices = schema.get("oneOf")?.as_array()?;
+    choices.iter().map(|c| Some((c.get("const")?.as_str()?, text(c, "description")))).collect()
+}
+
+/// The alternatives of a tagged table: the value of its `law` and the schema of the rest.
+pub(super) fn alternatives(schema: &Value) -> Option<Vec<(&str, &Value)>> {
+    let choices = schema.get("oneOf")?.as_array()?;
+    choices.iter().map(|c| Some((c.pointer("/properties/law/const")?.as_str()?, c))).collect()
+}
+
+/// The drives of a table of which exactly one is given.
+pub(super) fn drives(schema: &Value) -> Option<Vec<&str>> {
+    let choices = schema.get("oneOf")?.as_array()?;
+    choices.iter().map(|c| c.pointer("/required/0")?.as_str()).collect()
+}
+
+/// The range of a number in words: `more than 0 and at most 2 kg/m3`.
+pub(super) fn range(schema: &Value) -> String {
+    let bound = |keyword: &str| schema.get(keyword).and_then(Value::as_f64);
+    let mut parts = Vec::new();
+    if let Some(x) = bound("exclusiveMinimum") {
+        parts.push(format!("more than {x}"));
+    }
+    if let Some(x) = bound("minimum") {
+        parts.push(format!("at least {x}"));
+    }
+    if let Some(x) = bound("exclusiveMaximum") {
+        parts.push(format!("less than {x}"));
+    }
+    if let Some(x) = bound("maximum") {
+        parts.push(format!("at most {x}"));
+    }
+    let unit = text(schema, "x-unit");
+    let unit = if unit.is_empty() || unit == "1" { String::new() } else { format!(" {unit}") };
+    match parts.len() {
+        0 if unit.is_empty() => "a finite number".into(),
+        0 => format!("a finite number in{unit}"),
+        _ if bound("minimum").is_some() && bound("minimum") == bound("maximum") => {
+            format!("{}{unit}", bound("minimum").unwrap_or_default())
+        }
+        _ => parts.join(" and ") + &unit,
+    }
+}
+
+/// Whether a number is inside the range of its schema.
+pub(super) fn inside(schema: &Value, x: f64) -> bool {
+    let bound = |keyword: &str| schema.get(keyword).and_then(Value::as_f64);
+    bound("exclusiveMinimum").is_none_or(|b| x > b)
+        && bound("minimum").is_none_or(|b| x >= b)
+        && bound("exclusiveMaximum").is_none_or(|b| x < b)
+        && bound("maximum").is_none_or(|b| x <= b)
+}

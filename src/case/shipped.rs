@@ -1,0 +1,28 @@
+//! The cases that come with the program, embedded in the binary.
+
+macro_rules! shipped {
+    ($($name:literal),* $(,)?) => {
+        &[$(($name, include_str!(concat!("../../cases/", $name, ".toml")))),*]
+    };
+}
+
+/// Name and content of each shipped case; a test holds the list against the folder `cases/`.
+pub static CASES: &[(&str, &str)] = shipped![
+    "exact_1d_aussillous",
+    "exact_1d_bagnold",
+    "exact_1d_bingham",
+    "exact_1d_loglaw",
+    "exact_1d_ouriemi",
+    "exact_1d_ouriemi_mixed",
+];
+
+/// Content of the shipped case of that name.
+#[must_use]
+pub fn find(name: &str) -> Option<&'static str> {
+    CASES.iter().find(|(n, _)| *n == name).map(|(_, content)| *content)
+}
+
+/// Names of the shipped cases.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    CASES.iter().map(|(name, _)| *name)
+}

@@ -1,0 +1,247 @@
+//! The command line: one file per verb. Answers go to standard output, everything else to standard error.
+
+mod check;
+mod completions;
+mod explain;
+mod list;
+mod new;
+mod progress;
+mod report;
+mod run;
+mod schema;
+mod validate;
+
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use serde_json::{Value, json};
+
+use crate::case::{Case, CaseError};
+use crate::output::OutputError;
+use crate::problem::Problem;
+use crate::result::ErrorReport;
+use crate::runtime::interrupt::STOPPED;
+use crate::validate::ValidateError;
+
+/// Sediment transport from several models of the same flow, with what each one costs and how far it can be trusted.
+#[derive(Debug, Parser)]
+#[command(name = "bedload", version, arg_required_else_help = true, max_term_width = 100)]
+#[command(after_help = "CASE is a file or the name of a shipped case (`bedload list cases`).\n\
+    Exit codes: 0 done; 1 disk full or a bug; 2 wrong input, nothing was run; 3 the method failed; 4 stopped by Ctrl-C.")]
+pub struct Cli {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+#[derive(Debug, Subcommand)]
+enum Verb {
+    /// Solve a case and write its folder: numbers, tables, report
+    Run(run::Run),
+    /// Say whether a case is valid, without running it
+    Check(check::Check),
+    /// Show the equations that a case solves, with its numbers, and the laws in them
+    Explain(explain::Explain),
+    /// Write a case to start from
+    New(new::New),
+    /// List models, shipped cases and closures
+    List(list::List),
+    /// Redraw figures and page of a run from its tables
+    Report(report::Report),
+    /// Re-run what the cases claim and write the table
+    Validate(validate::Validate),
+    /// Print the JSON Schema of case files, for editors
+    Schema(schema::Schema),
+    /// Print a completion script for a shell
+    Completions(completions::Completions),
+}
+
+/// A case and what to change in it.
+#[derive(Debug, Args)]
+struct CaseArgs {
+    /// A file, or the name of a shipped case
+    #[arg(value_name = "CASE")]
+    case: String,
+    /// Change a value: table.key=value; an empty value removes the key
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+}
+
+impl CaseArgs {
+    fn load(&self) -> Result<(Case, Problem), CliError> {
+        let case = Case::load(&self.case, &self.overrides)?;
+        let problem = Problem::new(&case)?;
+        Ok((case, problem))
+    }
+}
+
+/// How a verb ended, if not well.
+#[derive(Debug)]
+enum CliError {
+    /// the case is wrong: 2
+    Case(Box<CaseError>),
+    /// the folder is refused (2) or writing it broke (1)
+    Output(OutputError),
+    /// the method failed, the folder says how: 3. The answer for `--json`
+    Failed(ErrorReport, Option<Value>),
+    /// some rows of a validation are red: 3
+    Red(usize),
+    /// stopped by the user: 4. The answer for `--json`
+    Stopped(Value),
+    /// an argument that clap cannot judge: 2
+    Usage { code: &'static str, message: String, hint: String },
+    /// standard output or a file: 1
+    Io(io::Error),
+    /// everything has been said: only the code is left
+    Quiet(u8),
+}
+
+impl From<CaseError> for CliError {
+    fn from(error: CaseError) -> Self {
+        Self::Case(Box::new(error))
+    }
+}
+
+impl From<OutputError> for CliError {
+    fn from(error: OutputError) -> Self {
+        Self::Output(error)
+    }
+}
+
+impl From<ValidateError> for CliError {
+    fn from(ValidateError::Case(error): ValidateError) -> Self {
+        Self::Case(error)
+    }
+}
+
+impl From<io::Error> for CliError {
+    fn from(error: io::Error) -> Self {
+        Self::Io(error)
+    }
+}
+
+/// Parses the arguments, does what they ask, and returns the exit code.
+#[must_use]
+pub fn execute() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => {
+            // Help and version are errors of exit code 0.
+            let code = error.exit_code();
+            return if error.print().is_err() { ExitCode::FAILURE } else { ExitCode::from(u8::try_from(code).unwrap_or(2)) };
+        }
+    };
+    let json = match &cli.verb {
+        Verb::Run(verb) => verb.json,
+        Verb::Check(verb) => verb.json,
+        Verb::List(verb) => verb.json,
+        Verb::Report(verb) => verb.json,
+        Verb::Validate(verb) => verb.json,
+        Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
+    };
+    let result = match cli.verb {
+        Verb::Run(verb) => verb.execute(),
+        Verb::Check(verb) => verb.execute(),
+        Verb::Explain(verb) => verb.execute(),
+        Verb::New(verb) => verb.execute(),
+        Verb::List(verb) => verb.execute(),
+        Verb::Report(verb) => verb.execute(),
+        Verb::Validate(verb) => verb.execute(),
+        Verb::Schema(verb) => verb.execute(),
+        Verb::Completions(verb) => verb.execute(),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => error.report(json),
+    }
+}
+
+impl CliError {
+    /// Says what went wrong, as text or as JSON, and returns the exit code.
+    fn report(self, json: bool) -> ExitCode {
+        let code = self.exit_code();
+        if let Self::Quiet(code) = self {
+            return ExitCode::from(code);
+        }
+        // A reader that went away is no error of ours.
+        if matches!(&self, Self::Io(error) if error.kind() == io::ErrorKind::BrokenPipe) {
+            return ExitCode::SUCCESS;
+        }
+        let written = if json { answer(&self.answer()) } else { self.explain() };
+        if written.is_err() { ExitCode::FAILURE } else { ExitCode::from(code) }
+    }
+
+    fn exit_code(&self) -> u8 {
+        match self {
+            Self::Case(_) | Self::Usage { .. } => 2,
+            Self::Output(error) => if error.is_refusal() { 2 } else { 1 },
+            Self::Failed(..) | Self::Red(_) => 3,
+            Self::Stopped(_) => STOPPED as u8,
+            Self::Io(_) => 1,
+            Self::Quiet(code) => *code,
+        }
+    }
+
+    /// The one object of `--json` on failure.
+    fn answer(self) -> Value {
+        let one = |code: &str, message: String, hint: Option<String>| {
+            let error = ErrorReport { code: code.into(), message, path: None, line: None, allowed: None, hint };
+            json!({ "status": "failed", "error": error })
+        };
+        match self {
+            Self::Case(error) => {
+                let reports = error.reports();
+                json!({ "status": "failed", "error": reports.first(), "errors": reports })
+            }
+            Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
+            Self::Failed(error, summary) => summary.unwrap_or_else(|| json!({ "status": "failed", "error": error })),
+            Self::Red(rows) => one("red-rows", format!("{rows} rows are red"), None),
+            Self::Stopped(summary) => summary,
+            Self::Usage { code, message, hint } => one(code, message, Some(hint)),
+            Self::Io(error) => one("io", error.to_string(), None),
+            Self::Quiet(_) => Value::Null,
+        }
+    }
+
+    fn explain(self) -> io::Result<()> {
+        let mut to = io::stderr().lock();
+        match self {
+            Self::Case(error) => write!(to, "{}", error.render(colour()))?,
+            Self::Output(error) => {
+                writeln!(to, "error: {error}")?;
+                if let Some(hint) = error.hint() {
+                    writeln!(to, "  {hint}")?;
+                }
+            }
+            Self::Failed(error, _) => {
+                writeln!(to, "failed: {}", error.message)?;
+                if let Some(hint) = error.hint {
+                    writeln!(to, "  {hint}")?;
+                }
+            }
+            Self::Red(rows) => writeln!(to, "{rows} rows are red")?,
+            Self::Stopped(_) => writeln!(to, "stopped")?,
+            Self::Usage { message, hint, .. } => writeln!(to, "error: {message}\n  {hint}")?,
+            Self::Io(error) => writeln!(to, "error: {error}")?,
+            Self::Quiet(_) => {}
+        }
+        Ok(())
+    }
+}
+
+/// Whether standard error takes colour.
+fn colour() -> bool {
+    io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
+}
+
+/// Writes text to standard output.
+fn say(text: &str) -> io::Result<()> {
+    let mut to = io::stdout().lock();
+    to.write_all(text.as_bytes())?;
+    to.flush()
+}
+
+/// Writes one JSON object to standard output.
+fn answer(value: &Value) -> io::Result<()> {
+    say(&format!("{value:#}\n"))
+}

@@ -1,0 +1,53 @@
+//! `bedload new`: a case to start from.
+
+use std::fs::OpenOptions;
+use std::io::{ErrorKind, Write};
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{CliError, say};
+use crate::case::{nearest, shipped};
+
+/// Write a case to start from.
+#[derive(Debug, Args)]
+pub(super) struct New {
+    /// Shipped case to start from (`bedload list cases`)
+    #[arg(value_name = "SHIPPED")]
+    from: String,
+    /// File to write; `-` for standard output
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Replace the file if it is there
+    #[arg(long)]
+    force: bool,
+}
+
+impl New {
+    pub(super) fn execute(self) -> Result<(), CliError> {
+        let Some(content) = shipped::find(&self.from) else {
+            let hint = nearest(&self.from, shipped::names())
+                .map_or_else(|| "`bedload list cases` shows them".into(), |n| format!("did you mean \"{n}\"?"));
+            let message = format!("there is no shipped case \"{}\"", self.from);
+            return Err(CliError::Usage { code: "no-such-case", message, hint });
+        };
+        // The first line points an editor at the schema beside the shipped cases.
+        let content = content.split_once('\n').map_or(content, |(first, rest)| if first.starts_with("#:schema") { rest } else { content });
+        if self.file.as_os_str() == "-" {
+            return Ok(say(content)?);
+        }
+        let file = self.file.display().to_string();
+        let refused = |error: std::io::Error| {
+            let exists = error.kind() == ErrorKind::AlreadyExists;
+            CliError::Usage {
+                code: if exists { "file-exists" } else { "unwritable" },
+                message: if exists { format!("{file} is there already") } else { format!("cannot write {file}: {error}") },
+                hint: if exists { "give another name, or --force to replace it" } else { "give another place" }.into(),
+            }
+        };
+        let mut options = OpenOptions::new();
+        if self.force { options.create(true).truncate(true) } else { options.create_new(true) };
+        options.write(true).open(&self.file).map_err(refused)?.write_all(content.as_bytes())?;
+        Ok(say(&format!("wrote {file}; next: bedload run {file}\n"))?)
+    }
+}

@@ -1,0 +1,129 @@
+//! `bedload run`: solve a case and write its folder.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use clap::Args;
+use serde_json::Value;
+
+use super::progress::Progress;
+use super::{CaseArgs, CliError, answer, say};
+use crate::output::{Folder, Mode, Written, write_failure, write_outcome, write_running};
+use crate::result::{Cost, Status, Summary, quantity};
+use crate::runtime::cost::peak_memory_mb;
+use crate::units::{readable, significant};
+
+/// Solve a case and write its folder: numbers, tables, report.
+#[derive(Debug, Args)]
+pub(super) struct Run {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// Folder to write [default: runs/CASE]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads to use
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: u16,
+    /// Draw the figures as PNG, too
+    #[arg(long)]
+    png: bool,
+    /// No progress and no closing lines
+    #[arg(long)]
+    quiet: bool,
+    /// Print the summary as one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Replace whatever run the folder holds
+    #[arg(long)]
+    force: bool,
+    /// Go on with an unfinished run of the same case
+    #[arg(long)]
+    resume: bool,
+}
+
+impl Run {
+    pub(super) fn execute(self) -> Result<(), CliError> {
+        let start = Instant::now();
+        let (case, problem) = self.case.load()?;
+        let out = self.out.unwrap_or_else(|| PathBuf::from("runs").join(&case.name));
+        let mode = Mode { force: self.force, resume: self.resume };
+        let folder = Folder::prepare(&out, &case.resolved(), mode)?;
+        let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
+        let mut progress = Progress::new(self.quiet);
+        let solving = Instant::now();
+        let result = crate::run(&problem, &mut progress);
+        drop(progress);
+        let solve_s = solving.elapsed().as_secs_f64();
+        let cost = Cost {
+            solve_s,
+            total_s: start.elapsed().as_secs_f64(),
+            peak_memory_mb: peak_memory_mb(),
+            work_units: problem.cells as f64,
+        };
+        let written = match &result {
+            Ok(outcome) => write_outcome(folder, summary, &problem, outcome, cost, self.png)?,
+            Err(failure) => write_failure(folder, summary, &problem, failure, cost, self.png)?,
+        };
+        let mut value = written.summary.to_json();
+        if let Value::Object(object) = &mut value {
+            object.insert("out".into(), out.display().to_string().into());
+        }
+        match (written.summary.status, &written.summary.error) {
+            (Status::Failed, Some(error)) => Err(CliError::Failed(error.clone(), Some(value))),
+            (Status::Stopped, _) => Err(CliError::Stopped(value)),
+            _ if self.json => Ok(answer(&value)?),
+            _ if self.quiet => Ok(()),
+            _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.case))?),
+        }
+    }
+}
+
+/// What a reader wants to know first, in at most twelve lines.
+fn closing(written: &Written, out: &str, case: &str) -> String {
+    let Summary { results, balances, validity, cost, model, .. } = &written.summary;
+    let mut lines = vec![format!("{}: {model}", written.summary.case)];
+    let mut line = |label: &str, text: String| lines.push(format!("  {label:<15} {text}"));
+    let value = |q: &'static quantity::Quantity| results.get(q.name).map(|x| readable(x, q.unit));
+    if let Some(rate) = value(&quantity::TRANSPORT_RATE) {
+        let star = value(&quantity::TRANSPORT_RATE_DIMENSIONLESS).map(|x| format!("  (Q* = {x})"));
+        line("transport rate", format!("{rate}{}  closed form, exact to round-off", star.unwrap_or_default()));
+    }
+    for group in HEADLINES {
+        let text: Vec<String> = group.iter().filter_map(|q| Some(format!("{} {}", q.symbol, value(q)?))).collect();
+        if !text.is_empty() {
+            line(group[0].title, text.join("   "));
+        }
+    }
+    if !balances.is_empty() {
+        let text: Vec<String> = balances.iter().map(|b| format!("{} {:.0e}", b.name, b.relative.abs())).collect();
+        line("balances", format!("{}  (relative)", text.join(", ")));
+    }
+    match validity.as_slice() {
+        [] => line("outside range", "nothing".into()),
+        found => {
+            let text: Vec<String> = found
+                .iter()
+                .map(|v| format!("{}: {} = {} ({})", v.closure, v.variable, significant(v.value, 3), v.range))
+                .collect();
+            line("outside range", text.join("; "));
+        }
+    }
+    let memory = cost.peak_memory_mb.map(|mb| format!(", {mb:.0} MB")).unwrap_or_default();
+    line("cost", format!("{:.2} ms to solve, {:.1} ms in all{memory}", 1e3 * cost.solve_s, 1e3 * cost.total_s));
+    line("report", format!("{out}/report.html"));
+    if written.figures.is_empty() {
+        line("next", format!("bedload explain {case}"));
+    } else {
+        line("figures", format!("{out}/figures/"));
+    }
+    lines.join("\n") + "\n"
+}
+
+/// Numbers of the closing lines, a line each, named by the first.
+const HEADLINES: &[&[&quantity::Quantity]] = &[
+    &[&quantity::SHIELDS, &quantity::U_STAR],
+    &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
+    &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],
+    &[&quantity::BINGHAM, &quantity::HALF_PLUG, &quantity::PLUG_VELOCITY],
+    &[&quantity::SURFACE_VELOCITY, &quantity::INERTIAL_NUMBER_FILM, &quantity::ROUGHNESS_LENGTH],
+];

@@ -1,0 +1,20 @@
+//! `bedload schema`: the shape of case files.
+
+use clap::Args;
+
+use super::{CliError, answer, say};
+use crate::case::{reference, schema};
+
+/// Print the JSON Schema of case files, for editors.
+#[derive(Debug, Args)]
+pub(super) struct Schema {
+    /// The case reference for people, as Markdown
+    #[arg(long)]
+    reference: bool,
+}
+
+impl Schema {
+    pub(super) fn execute(self) -> Result<(), CliError> {
+        if self.reference { Ok(say(&reference())?) } else { Ok(answer(&schema::published())?) }
+    }
+}

@@ -1,0 +1,74 @@
+//! `bedload validate`: re-run what the cases claim.
+
+use std::fs;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::progress::Progress;
+use super::{CliError, answer, say};
+use crate::case::tables::Tier;
+use crate::units::significant;
+use crate::validate::{Row, Verdict, markdown, validate};
+
+/// Re-run what the cases claim and write the table.
+#[derive(Debug, Args)]
+pub(super) struct Validate {
+    /// Cases to validate; all shipped ones if left out
+    #[arg(value_name = "CASE")]
+    cases: Vec<String>,
+    /// Include the rows that take long
+    #[arg(long)]
+    full: bool,
+    /// File for the table [default: docs/validation.md for the shipped cases with --full, none otherwise]
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+impl Validate {
+    pub(super) fn execute(self) -> Result<(), CliError> {
+        let tier = if self.full { Tier::Full } else { Tier::Quick };
+        let rows = validate(&self.cases, tier, &mut Progress::new(self.json))?;
+        let default = (self.full && self.cases.is_empty()).then(|| PathBuf::from("docs/validation.md"));
+        if let Some(file) = self.out.or(default) {
+            if let Some(folder) = file.parent() {
+                fs::create_dir_all(folder)?;
+            }
+            fs::write(&file, markdown(&rows))?;
+        }
+        let red = rows.iter().filter(|r| r.verdict == Verdict::Red).count();
+        if self.json {
+            answer(&json!({ "status": if red == 0 { "done" } else { "failed" }, "red": red, "rows": rows.iter().map(object).collect::<Vec<_>>() }))?;
+            return if red == 0 { Ok(()) } else { Err(CliError::Quiet(3)) };
+        }
+        let mut text = String::new();
+        for row in &rows {
+            let found = row.found.as_ref().map_or_else(Clone::clone, |x| significant(*x, 7));
+            let expected = significant(row.check.expect, 7);
+            let name = format!("{} {}", row.case, row.quantity);
+            text += &format!("{:5} {name:<48} {found} (expected {expected} ± {:.0e})\n", row.verdict.word(), row.check.tolerance);
+        }
+        let green = rows.iter().filter(|r| r.verdict == Verdict::Green).count();
+        say(&(text + &format!("{green} pass, {red} fail, {} shown\n", rows.len() - green - red)))?;
+        if red == 0 { Ok(()) } else { Err(CliError::Red(red)) }
+    }
+}
+
+fn object(row: &Row) -> Value {
+    json!({
+        "case": row.case,
+        "quantity": row.quantity,
+        "at": row.check.at,
+        "expect": row.check.expect,
+        "found": row.found.as_ref().ok(),
+        "reason": row.found.as_ref().err(),
+        "tolerance": row.check.tolerance,
+        "kind": row.check.kind,
+        "verdict": row.verdict.word(),
+        "source": row.check.source,
+    })
+}

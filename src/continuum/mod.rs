@@ -1,0 +1,3 @@
+//! Continuum models of the flow and of the bed.
+
+pub mod exact;

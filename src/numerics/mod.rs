@@ -1,0 +1,5 @@
+//! Numerical methods that know no physics.
+
+pub mod levels;
+pub mod quadrature;
+pub mod root;

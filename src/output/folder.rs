@@ -1,0 +1,273 @@
+//! One folder per run. A new or empty folder is used; the same case, finished, is replaced by rename; anything else is refused.
+
+use std::fs;
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use crate::result::{Status, Summary};
+
+/// Files that a run folder may hold; anything else in it is not ours.
+const OURS: &[&str] = &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", "figures"];
+
+/// Why a folder cannot be used or written.
+#[derive(Debug, thiserror::Error)]
+pub enum OutputError {
+    /// a file where the folder should be
+    #[error("{} is a file, not a folder", .0.display())]
+    NotAFolder(PathBuf),
+    /// something in it that no run wrote
+    #[error("{} was not written by bedload: it holds {entry}", folder.display())]
+    Foreign {
+        /// the folder
+        folder: PathBuf,
+        /// what is not ours
+        entry: String,
+    },
+    /// a run of another case
+    #[error("{} holds a run of another case, {case}", folder.display())]
+    OtherCase {
+        /// the folder
+        folder: PathBuf,
+        /// that case
+        case: String,
+    },
+    /// the same case, not finished
+    #[error("{} holds an unfinished run of this case ({status:?})", folder.display())]
+    Unfinished {
+        /// the folder
+        folder: PathBuf,
+        /// its state
+        status: Status,
+    },
+    /// a folder or file that cannot be made
+    #[error("cannot write {}: {error}", path.display())]
+    Unwritable {
+        /// folder or file
+        path: PathBuf,
+        /// what the system says
+        error: io::Error,
+    },
+    /// a folder that is not a run
+    #[error("{} is not a run of bedload: {reason}", folder.display())]
+    NotARun {
+        /// the folder
+        folder: PathBuf,
+        /// what is missing or wrong
+        reason: String,
+    },
+    /// writing failed half-way: the disk is full, or worse
+    #[error("writing {} failed: {error}", path.display())]
+    Interrupted {
+        /// the file
+        path: PathBuf,
+        /// what the system says
+        error: io::Error,
+    },
+}
+
+impl OutputError {
+    /// Stable identifier, as in the answer of `--json`.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NotAFolder(_) => "not-a-folder",
+            Self::Foreign { .. } => "foreign-folder",
+            Self::OtherCase { .. } => "other-case",
+            Self::Unfinished { .. } => "unfinished-run",
+            Self::Unwritable { .. } => "unwritable",
+            Self::NotARun { .. } => "not-a-run",
+            Self::Interrupted { .. } => "write-failed",
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> Option<&'static str> {
+        match self {
+            Self::NotAFolder(_) | Self::Unwritable { .. } => Some("give another folder with --out"),
+            Self::Foreign { .. } => Some("give another folder with --out; --force does not replace what bedload did not write"),
+            Self::OtherCase { .. } => Some("give another folder with --out, or --force to replace that run"),
+            Self::Unfinished { .. } => Some("--resume to go on, --force to start again"),
+            Self::NotARun { .. } => Some("give a folder that `bedload run` wrote"),
+            Self::Interrupted { .. } => Some("nothing that stood there before was touched; free some space and run again"),
+        }
+    }
+
+    /// Whether nothing was run because of it (exit code 2) or something broke on the way (exit code 1).
+    #[must_use]
+    pub fn is_refusal(&self) -> bool {
+        !matches!(self, Self::Interrupted { .. })
+    }
+}
+
+/// What may be done with a folder that is not empty.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Mode {
+    /// replace any run that bedload wrote
+    pub force: bool,
+    /// go on with an unfinished run of the same case
+    pub resume: bool,
+}
+
+/// A folder that is being written. Dropped before [`Folder::finish`], it takes back what it wrote.
+#[derive(Debug)]
+pub struct Folder {
+    /// where the run will be
+    target: PathBuf,
+    /// where it is written: the target itself, or a folder beside it that replaces it in the end
+    place: PathBuf,
+    created: bool,
+    finished: bool,
+}
+
+impl Folder {
+    /// Prepares `target` for a run of the resolved case `case`.
+    ///
+    /// # Errors
+    /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
+    pub fn prepare(target: &Path, case: &str, mode: Mode) -> Result<Self, OutputError> {
+        let unwritable = |path: &Path| {
+            let path = path.to_owned();
+            move |error| OutputError::Unwritable { path, error }
+        };
+        let occupied = match fs::symlink_metadata(target) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
+            Err(error) => return Err(unwritable(target)(error)),
+            Ok(_) if !target.is_dir() => return Err(OutputError::NotAFolder(target.into())),
+            Ok(_) => Some(fs::read_dir(target).map_err(unwritable(target))?.next().is_some()),
+        };
+        let folder = match occupied {
+            None => {
+                fs::create_dir_all(target).map_err(unwritable(target))?;
+                Self { target: target.into(), place: target.into(), created: true, finished: false }
+            }
+            Some(false) => Self { target: target.into(), place: target.into(), created: false, finished: false },
+            Some(true) => {
+                may_replace(target, case, mode)?;
+                let target = fs::canonicalize(target).map_err(unwritable(target))?;
+                let place = beside(&target, "new");
+                fs::create_dir(&place).map_err(unwritable(&place))?;
+                Self { target, place, created: true, finished: false }
+            }
+        };
+        // Whether files can be made here is known before anything is computed.
+        let probe = folder.place.join(".probe");
+        fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe)).map_err(unwritable(&folder.place))?;
+        Ok(folder)
+    }
+
+    /// Where the run will be.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.target
+    }
+
+    /// Where files of the name `name` are being written.
+    #[must_use]
+    pub fn place(&self, name: &str) -> PathBuf {
+        self.place.join(name)
+    }
+
+    /// Writes one file, which appears whole or not at all.
+    ///
+    /// # Errors
+    /// [`OutputError::Interrupted`] with the file.
+    pub fn write(&self, name: &str, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
+        write_whole(&self.place.join(name), content)
+    }
+
+    /// Puts the run in its place.
+    ///
+    /// # Errors
+    /// [`OutputError::Interrupted`] if the folders cannot be exchanged; the old run then stays.
+    pub fn finish(mut self) -> Result<(), OutputError> {
+        if self.place != self.target {
+            let failed = |path: &Path| {
+                let path = path.to_owned();
+                move |error| OutputError::Interrupted { path, error }
+            };
+            let old = beside(&self.target, "old");
+            fs::rename(&self.target, &old).map_err(failed(&self.target))?;
+            if let Err(error) = fs::rename(&self.place, &self.target) {
+                let _ = fs::rename(&old, &self.target);
+                return Err(failed(&self.target)(error));
+            }
+            // The new run is in place; what is left of the old one is only litter.
+            let _ = fs::remove_dir_all(&old);
+        }
+        self.finished = true;
+        Ok(())
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        if self.finished {
+            return;
+        }
+        // Nothing can be done about a failure here, and nothing but our own files is touched.
+        if self.created {
+            let _ = fs::remove_dir_all(&self.place);
+        } else {
+            for name in OURS {
+                let path = self.place.join(name);
+                let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
+            }
+        }
+    }
+}
+
+/// Writes a file beside `path` and renames it.
+///
+/// # Errors
+/// [`OutputError::Interrupted`]; the file that stood there before stays.
+pub(super) fn write_whole(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
+    let partial = beside(path, "part");
+    let written = fs::File::create(&partial).and_then(|file| {
+        let mut writer = BufWriter::with_capacity(1 << 16, file);
+        content(&mut writer)?;
+        writer.flush()?;
+        fs::rename(&partial, path)
+    });
+    written.map_err(|error| {
+        let _ = fs::remove_file(&partial);
+        OutputError::Interrupted { path: path.into(), error }
+    })
+}
+
+/// A hidden name beside `path` that no other process uses.
+fn beside(path: &Path, what: &str) -> PathBuf {
+    let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    path.with_file_name(format!(".{name}.{what}-{}", std::process::id()))
+}
+
+/// Whether a folder that is not empty may be replaced by a run of the resolved case `case`.
+fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<(), OutputError> {
+    let summary = read_summary(folder)?;
+    let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
+    for entry in fs::read_dir(folder).map_err(unwritable)? {
+        let name = entry.map_err(unwritable)?.file_name().to_string_lossy().into_owned();
+        let partial = name.starts_with('.') && name.contains(".part-");
+        if !OURS.contains(&name.as_str()) && !partial {
+            return Err(OutputError::Foreign { folder: folder.into(), entry: name });
+        }
+    }
+    let same = fs::read_to_string(folder.join("case.toml")).is_ok_and(|text| text == case);
+    if mode.force {
+        return Ok(());
+    }
+    match (same, summary.status) {
+        (true, Status::Done) => Ok(()),
+        (true, _) if mode.resume => Ok(()),
+        (true, status) => Err(OutputError::Unfinished { folder: folder.into(), status }),
+        (false, _) => Err(OutputError::OtherCase { folder: folder.into(), case: summary.case }),
+    }
+}
+
+/// The summary of a run folder; anything that is not one is foreign.
+fn read_summary(folder: &Path) -> Result<Summary, OutputError> {
+    let foreign = |entry: &str| OutputError::Foreign { folder: folder.into(), entry: entry.into() };
+    let path = folder.join("summary.json");
+    let text = fs::read_to_string(&path).map_err(|_| foreign("no summary.json"))?;
+    serde_json::from_str(&text).map_err(|_| foreign("a summary.json of something else"))
+}

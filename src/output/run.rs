@@ -1,0 +1,219 @@
+//! What a run writes: summary first (`running`) and last, the resolved case, tables, report, figures on demand.
+
+use std::fs;
+use std::io::{self, BufReader, Write};
+use std::path::{Path, PathBuf};
+
+use serde_json::Map;
+use sha2::{Digest, Sha256};
+
+use super::folder::{Folder, OutputError, write_whole};
+use crate::case::Case;
+use crate::plot::{self, Page, PlotError};
+use crate::problem::Problem;
+use crate::result::{
+    Cost, ErrorReport, Failure, Outcome, Profile, Provenance, Results, Series, Status, Summary, TableError,
+};
+
+/// A run as it stands in its folder.
+#[derive(Debug)]
+pub struct Written {
+    /// its summary
+    pub summary: Summary,
+    /// figures that were drawn as PNG
+    pub figures: Vec<PathBuf>,
+}
+
+/// The summary of a run that has just begun.
+fn begin(case: &Case, problem: &Problem, resolved: &str, threads: usize) -> Summary {
+    let digest = Sha256::digest(resolved.as_bytes());
+    Summary {
+        format: Summary::FORMAT,
+        status: Status::Running,
+        case: problem.name.clone(),
+        model: problem.model_name(),
+        results: Results::default(),
+        balances: Vec::new(),
+        validity: Vec::new(),
+        regularisation: Map::new(),
+        error: None,
+        cost: Cost::default(),
+        provenance: Provenance {
+            source: case.source.clone(),
+            overrides: case.overrides.clone(),
+            case_sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+            threads,
+            ..Provenance::of_this_program()
+        },
+    }
+}
+
+/// Marks the folder as being computed and keeps the resolved case. Returns the summary to complete.
+///
+/// # Errors
+/// [`OutputError::Interrupted`] with the file that cannot be written.
+pub fn write_running(folder: &Folder, case: &Case, problem: &Problem, threads: usize) -> Result<Summary, OutputError> {
+    let resolved = case.resolved();
+    let summary = begin(case, problem, &resolved, threads);
+    write_summary(folder, &summary)?;
+    folder.write("case.toml", |to| to.write_all(resolved.as_bytes()))?;
+    Ok(summary)
+}
+
+/// Writes what a run has computed, complete or stopped.
+///
+/// # Errors
+/// [`OutputError::Interrupted`] with the file that cannot be written.
+pub fn write_outcome(
+    folder: Folder,
+    mut summary: Summary,
+    problem: &Problem,
+    outcome: &Outcome,
+    cost: Cost,
+    png: bool,
+) -> Result<Written, OutputError> {
+    summary.status = outcome.status;
+    fill(&mut summary, outcome, cost);
+    let figures = write_body(&folder, &summary, problem, Some(outcome), png)?;
+    complete(folder, summary, figures)
+}
+
+/// Writes a failed run: the reason, and the last good state if there is one.
+///
+/// # Errors
+/// [`OutputError::Interrupted`] with the file that cannot be written.
+pub fn write_failure(
+    folder: Folder,
+    mut summary: Summary,
+    problem: &Problem,
+    failure: &Failure,
+    cost: Cost,
+    png: bool,
+) -> Result<Written, OutputError> {
+    summary.status = Status::Failed;
+    let Failure { error, last } = failure;
+    summary.error = Some(ErrorReport {
+        code: error.code().into(),
+        message: error.to_string(),
+        path: None,
+        line: None,
+        allowed: None,
+        hint: Some(error.hint()),
+    });
+    if let Some(last) = last {
+        fill(&mut summary, last, cost);
+    } else {
+        summary.cost = cost;
+    }
+    let figures = write_body(&folder, &summary, problem, last.as_deref(), png)?;
+    complete(folder, summary, figures)
+}
+
+fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
+    summary.results = outcome.results.clone();
+    summary.balances = outcome.balances.clone();
+    summary.validity = outcome.validity.clone();
+    summary.cost = cost;
+}
+
+fn complete(folder: Folder, summary: Summary, figures: Vec<PathBuf>) -> Result<Written, OutputError> {
+    write_summary(&folder, &summary)?;
+    folder.finish()?;
+    Ok(Written { summary, figures })
+}
+
+fn write_summary(folder: &Folder, summary: &Summary) -> Result<(), OutputError> {
+    folder.write("summary.json", |to| {
+        serde_json::to_writer_pretty(&mut *to, summary)?;
+        writeln!(to)
+    })
+}
+
+/// Tables, report and figures.
+fn write_body(
+    folder: &Folder,
+    summary: &Summary,
+    problem: &Problem,
+    outcome: Option<&Outcome>,
+    png: bool,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let comments = summary.provenance.lines();
+    let profile = outcome.and_then(|o| o.profile.as_ref());
+    if let Some(profile) = profile {
+        folder.write("profile.csv", |to| profile.write_csv(to, &comments).map_err(as_io))?;
+    }
+    if let Some(series) = outcome.and_then(|o| o.series.as_ref()) {
+        folder.write("series.csv", |to| series.write_csv(to, &comments).map_err(as_io))?;
+    }
+    let case = fs::read_to_string(folder.place("case.toml")).unwrap_or_default();
+    draw(&folder.place("."), folder.path(), summary, profile, &crate::equations(problem), &case, png)
+}
+
+fn as_io(error: TableError) -> io::Error {
+    match error {
+        TableError::Io(error) => error,
+        TableError::Csv(error) => match error.into_kind() {
+            csv::ErrorKind::Io(error) => error,
+            other => io::Error::other(format!("{other:?}")),
+        },
+        other => io::Error::other(other),
+    }
+}
+
+/// Draws the report and, on demand, the figures as PNG, into `place`; `shown` is what the paths are called.
+fn draw(
+    place: &Path,
+    shown: &Path,
+    summary: &Summary,
+    profile: Option<&Profile>,
+    equations: &str,
+    case: &str,
+    png: bool,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
+    let failed = |name: &str| {
+        let path = place.join(name);
+        move |error: PlotError| OutputError::Interrupted { path, error: io::Error::other(error) }
+    };
+    let page = plot::report_html(&Page { summary, figures: &figures, equations, case_toml: case })
+        .map_err(failed("report.html"))?;
+    write_whole(&place.join("report.html"), |to| to.write_all(page.as_bytes()))?;
+    if !png {
+        return Ok(Vec::new());
+    }
+    let folder = place.join("figures");
+    fs::create_dir_all(&folder).map_err(|error| OutputError::Interrupted { path: folder.clone(), error })?;
+    figures
+        .iter()
+        .map(|figure| {
+            let name = format!("figures/{}.png", figure.stem);
+            plot::png(figure, &place.join(&name)).map_err(failed(&name))?;
+            Ok(shown.join(&name))
+        })
+        .collect()
+}
+
+/// Draws the report of a finished run again, from its tables alone.
+///
+/// # Errors
+/// [`OutputError::NotARun`] if the folder does not hold a run, [`OutputError::Interrupted`] if it cannot be written.
+pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
+    let wrong = |reason: String| OutputError::NotARun { folder: folder.into(), reason };
+    let read = |name: &str| fs::read_to_string(folder.join(name)).map_err(|error| wrong(format!("{name}: {error}")));
+    let summary: Summary =
+        serde_json::from_str(&read("summary.json")?).map_err(|error| wrong(format!("summary.json: {error}")))?;
+    let text = read("case.toml")?;
+    let profile = match fs::File::open(folder.join("profile.csv")) {
+        Ok(file) => {
+            Some(Profile::read_csv(BufReader::new(file)).map_err(|error| wrong(format!("profile.csv: {error}")))?)
+        }
+        Err(_) => None,
+    };
+    if let Ok(file) = fs::File::open(folder.join("series.csv")) {
+        Series::read_csv(BufReader::new(file)).map_err(|error| wrong(format!("series.csv: {error}")))?;
+    }
+    let case = Case::parse(&summary.case, "case.toml", text.clone(), &[]).map_err(|error| wrong(error.to_string()))?;
+    let problem = Problem::new(&case).map_err(|error| wrong(error.to_string()))?;
+    let figures = draw(folder, folder, &summary, profile.as_ref(), &crate::equations(&problem), &text, png)?;
+    Ok(Written { summary, figures })
+}

@@ -1,0 +1,101 @@
+//! What is solved: immutable values in SI, checked against each other. After this nothing is out of range and no unit remains.
+
+mod bed;
+mod others;
+
+pub use bed::{Drive, LaminarBed};
+pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RoughWall};
+
+use crate::case::{Case, CaseError, Fault, Scene};
+use crate::result::quantity;
+
+/// A checked problem.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// stem of the case
+    pub name: String,
+    /// the question
+    pub title: String,
+    /// `kind` or `kind/solution`
+    pub kind: &'static str,
+    /// what is solved
+    pub model: Model,
+    /// number of levels of the profile
+    pub cells: usize,
+}
+
+/// The models.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Model {
+    /// Newtonian fluid over a Coulomb bed, closed form
+    Ouriemi(LaminarBed),
+    /// Bingham fluid between two planes, closed form
+    BinghamPlane(BinghamPlane),
+    /// dry grains down a slope, closed form
+    BagnoldFilm(GranularFilm),
+    /// turbulent layer over a rough wall, closed form
+    LogLaw(RoughWall),
+}
+
+/// Faults found while comparing values with each other, by path.
+type Faults = Vec<(&'static str, Fault)>;
+
+impl Problem {
+    /// Checks what no schema can: values against each other, laws against the model, checks against the results.
+    ///
+    /// # Errors
+    /// Every violation, with its place in the case.
+    pub fn new(case: &Case) -> Result<Self, CaseError> {
+        let mut faults = Faults::new();
+        let (model, cells) = match &case.scene {
+            Scene::Ouriemi(scene) => (bed::ouriemi(scene, case.model, &mut faults).map(Model::Ouriemi), scene.grid.cells),
+            Scene::BinghamPlane(scene) => (others::bingham(scene).map(Model::BinghamPlane), scene.grid.cells),
+            Scene::BagnoldFilm(scene) => {
+                (others::bagnold(scene, case.model, &mut faults).map(Model::BagnoldFilm), scene.grid.cells)
+            }
+            Scene::LogLaw(scene) => (others::log_law(scene, &mut faults).map(Model::LogLaw), scene.grid.cells),
+        };
+        let mut faults: Vec<(String, Fault)> = faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();
+        checks(case, &mut faults);
+        match model {
+            Some(model) if faults.is_empty() => Ok(Self {
+                name: case.name.clone(),
+                title: case.scene.about().title.clone(),
+                kind: case.model,
+                model,
+                cells,
+            }),
+            _ => Err(case.clone().refuse(faults)),
+        }
+    }
+
+    /// The model in words, with its form where it has one.
+    #[must_use]
+    pub fn model_name(&self) -> String {
+        match &self.model {
+            Model::Ouriemi(bed) => format!("{}, {}", self.kind, bed.form_name()),
+            _ => self.kind.to_owned(),
+        }
+    }
+}
+
+/// Checks name catalogued results, or columns at a level.
+fn checks(case: &Case, faults: &mut Vec<(String, Fault)>) {
+    for (i, check) in case.scene.checks().iter().enumerate() {
+        let column = check.quantity.strip_prefix("profile.");
+        let list = if column.is_some() { quantity::COLUMNS } else { quantity::RESULTS };
+        let name = column.unwrap_or(&check.quantity);
+        if quantity::find(list, name).is_none() {
+            let nearest = crate::case::nearest(name, list.iter().map(|q| q.name));
+            let prefix = if column.is_some() { "profile." } else { "" };
+            let fault = Fault::UnknownQuantity {
+                name: check.quantity.clone(),
+                nearest: nearest.map(|n| format!("{prefix}{n}")),
+            };
+            faults.push((format!("check.{i}.quantity"), fault));
+        } else if column.is_some() != check.at.is_some() {
+            let fault = Fault::CheckLevel { name: check.quantity.clone(), column: column.is_some() };
+            faults.push((format!("check.{i}.quantity"), fault));
+        }
+    }
+}

@@ -1,0 +1,127 @@
+//! The smaller problems: a yield-stress fluid, a granular film, a rough wall.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::Faults;
+use crate::case::Fault;
+use crate::case::scene::{BagnoldFilm, BinghamPlane as BinghamScene, LogLaw};
+use crate::case::tables::SlopeDefinition;
+use crate::closures::friction::{self, Friction, MuI};
+use crate::closures::mixing_length::{MixingLength, Prandtl};
+use crate::closures::wall::{Rough, Wall};
+
+/// What drives the Bingham fluid.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum BinghamDrive {
+    /// fall of pressure along the flow, -dp/dx [Pa/m]
+    PressureGradient(f64),
+    /// wanted mean velocity [m/s]
+    MeanVelocity(f64),
+}
+
+/// A Bingham fluid between two planes. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BinghamPlane {
+    /// density [kg/m3]
+    pub rho: f64,
+    /// plastic viscosity [Pa s]
+    pub eta: f64,
+    /// yield stress [Pa]
+    pub tau_0: f64,
+    /// distance of the planes [m]
+    pub h: f64,
+    /// what drives the flow
+    pub drive: BinghamDrive,
+}
+
+/// Dry grains that flow down a slope. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GranularFilm {
+    /// density of the grains [kg/m3]
+    pub rho_p: f64,
+    /// diameter of the grains [m]
+    pub d: f64,
+    /// solid fraction
+    pub phi: f64,
+    /// thickness of the film [m]
+    pub h: f64,
+    /// slope angle [rad]
+    pub beta: f64,
+    /// gravity [m/s2]
+    pub g: f64,
+    /// friction of the grains
+    pub friction: MuI,
+}
+
+/// A turbulent layer of constant stress over a rough wall. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RoughWall {
+    /// density [kg/m3]
+    pub rho_f: f64,
+    /// viscosity [Pa s]
+    pub eta: f64,
+    /// height up to which the profile is given [m]
+    pub h: f64,
+    /// friction velocity [m/s]
+    pub u_star: f64,
+    /// mixing length
+    pub mixing_length: Prandtl,
+    /// roughness
+    pub wall: Rough,
+}
+
+pub(super) fn bingham(scene: &BinghamScene) -> Option<BinghamPlane> {
+    let BinghamScene { fluid, flow, .. } = scene;
+    let drive = match (flow.pressure_gradient, flow.mean_velocity) {
+        (Some(gradient), _) => BinghamDrive::PressureGradient(gradient),
+        (None, Some(mean)) => BinghamDrive::MeanVelocity(mean),
+        (None, None) => return None,
+    };
+    Some(BinghamPlane { rho: fluid.density, eta: fluid.viscosity, tau_0: fluid.yield_stress, h: flow.height, drive })
+}
+
+pub(super) fn bagnold(scene: &BagnoldFilm, model: &str, faults: &mut Faults) -> Option<GranularFilm> {
+    let BagnoldFilm { grains, bed, flow, closures, .. } = scene;
+    let (definition, beta) = match flow.slope_definition {
+        SlopeDefinition::Tangent => ("tangent", flow.slope.atan()),
+        SlopeDefinition::Sine => ("sine", flow.slope.asin()),
+        SlopeDefinition::Angle => ("angle", flow.slope),
+    };
+    // The arc sine of more than 1 is not a number: not (beta < pi/2) catches it.
+    let upright = beta < FRAC_PI_2;
+    if !upright {
+        faults.push(("flow.slope", Fault::TooSteep { definition, value: flow.slope }));
+    }
+    let friction = match closures.friction {
+        Friction::MuI(law) => law,
+        other => {
+            let allowed = vec![friction::mu_i::INFO.law];
+            let fault = Fault::LawMismatch { family: "friction", law: other.law(), model: model.into(), allowed };
+            faults.push(("closures.friction.law", fault));
+            return None;
+        }
+    };
+    if friction.mu_2 <= friction.mu_s {
+        faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: friction.mu_s, mu_2: friction.mu_2 }));
+    }
+    Some(GranularFilm {
+        rho_p: grains.density,
+        d: grains.diameter,
+        phi: bed.phi,
+        h: flow.height,
+        beta,
+        g: flow.gravity,
+        friction,
+    })
+}
+
+pub(super) fn log_law(scene: &LogLaw, faults: &mut Faults) -> Option<RoughWall> {
+    let LogLaw { fluid, flow, closures, .. } = scene;
+    let MixingLength::Prandtl(mixing_length) = closures.mixing_length;
+    let Wall::Rough(wall) = closures.wall;
+    if wall.roughness_length() >= flow.height {
+        let fault = Fault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
+        faults.push(("closures.wall.k_s", fault));
+    }
+    Some(RoughWall { rho_f: fluid.density, eta: fluid.viscosity, h: flow.height, u_star: flow.u_star, mixing_length, wall })
+}

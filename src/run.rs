@@ -1,0 +1,45 @@
+//! From a problem to an outcome: the one entry point that the command line and every study call.
+
+use crate::closures::{Info, drag::carman_kozeny, friction, mixing_length, wall};
+use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
+use crate::problem::{Model, Problem};
+use crate::result::{Failure, Outcome, Watch};
+
+/// Solves `problem`. `watch` sees the progress and may ask to stop; it cannot change the result.
+///
+/// # Errors
+/// [`Failure`]: why the method failed, with the numbers that say so and the last good state.
+pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
+    match &problem.model {
+        Model::Ouriemi(bed) => ouriemi::run(bed, problem.cells, watch),
+        Model::BinghamPlane(plane) => bingham::run(plane, problem.cells, watch),
+        Model::BagnoldFilm(film) => bagnold::run(film, problem.cells, watch),
+        Model::LogLaw(wall) => log_law::run(wall, problem.cells, watch),
+    }
+}
+
+/// The equations that are solved, with the numbers of `problem` filled in.
+#[must_use]
+pub fn equations(problem: &Problem) -> String {
+    match &problem.model {
+        Model::Ouriemi(bed) => ouriemi::equations(bed),
+        Model::BinghamPlane(plane) => bingham::equations(plane),
+        Model::BagnoldFilm(film) => bagnold::equations(film),
+        Model::LogLaw(wall) => log_law::equations(wall),
+    }
+}
+
+/// The laws in those equations.
+#[must_use]
+pub fn closures(problem: &Problem) -> Vec<&'static Info> {
+    match &problem.model {
+        Model::Ouriemi(bed) => {
+            let mut laws = vec![&friction::coulomb::INFO, bed.viscosity.info()];
+            laws.extend(bed.drag.map(|_| &carman_kozeny::INFO));
+            laws
+        }
+        Model::BinghamPlane(_) => Vec::new(),
+        Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
+        Model::LogLaw(_) => vec![&mixing_length::prandtl::INFO, &wall::rough::INFO],
+    }
+}

@@ -1,0 +1,4 @@
+//! What a run costs and how it is stopped.
+
+pub mod cost;
+pub mod interrupt;

@@ -1,0 +1,147 @@
+//! Re-runs what the cases claim: each `[[check]]` row of each case, as one table.
+
+use std::fmt::Write;
+
+use crate::case::tables::{Check, CheckKind, Tier};
+use crate::case::{Case, CaseError, shipped};
+use crate::problem::Problem;
+use crate::result::{Failure, Outcome, Watch, quantity};
+use crate::units::significant;
+
+/// How a row ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// within the tolerance
+    Green,
+    /// outside it
+    Red,
+    /// a claim that is shown, not judged
+    Shown,
+}
+
+impl Verdict {
+    /// One word.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Green => "pass",
+            Self::Red => "FAIL",
+            Self::Shown => "shown",
+        }
+    }
+}
+
+/// One checked number.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// case
+    pub case: String,
+    /// result or column
+    pub quantity: String,
+    /// what was claimed, with tolerance, kind and source
+    pub check: Check,
+    /// what was found; `None` with the reason
+    pub found: Result<f64, String>,
+    /// how it ended
+    pub verdict: Verdict,
+}
+
+impl Row {
+    /// Deviation relative to the expected value, absolute where that is 0.
+    #[must_use]
+    pub fn deviation(&self) -> Option<f64> {
+        let found = *self.found.as_ref().ok()?;
+        let scale = if self.check.expect == 0.0 { 1.0 } else { self.check.expect.abs() };
+        Some((found - self.check.expect).abs() / scale)
+    }
+}
+
+/// Why a case could not be validated.
+#[derive(Debug, thiserror::Error)]
+pub enum ValidateError {
+    /// the case is wrong
+    #[error(transparent)]
+    Case(#[from] Box<CaseError>),
+}
+
+/// Runs the checks of `cases` (all shipped ones if there are none) up to `tier`.
+///
+/// # Errors
+/// A case that is wrong. A case whose method fails is red rows, not an error.
+pub fn validate(cases: &[String], tier: Tier, watch: &mut dyn Watch) -> Result<Vec<Row>, ValidateError> {
+    let names: Vec<String> =
+        if cases.is_empty() { shipped::names().map(str::to_owned).collect() } else { cases.to_vec() };
+    let mut rows = Vec::new();
+    for name in &names {
+        let case = Case::load(name, &[]).map_err(Box::new)?;
+        let problem = Problem::new(&case).map_err(Box::new)?;
+        let wanted = |check: &&Check| check.tier == Tier::Quick || tier == Tier::Full;
+        if case.scene.checks().iter().filter(wanted).count() == 0 {
+            continue;
+        }
+        let outcome = crate::run(&problem, watch);
+        rows.extend(case.scene.checks().iter().filter(wanted).map(|check| row(&case.name, check, &outcome)));
+    }
+    Ok(rows)
+}
+
+fn row(case: &str, check: &Check, outcome: &Result<Outcome, Failure>) -> Row {
+    let found = match outcome {
+        Err(failure) => Err(failure.to_string()),
+        Ok(outcome) => find(check, outcome).ok_or_else(|| "not reported".to_owned()),
+    };
+    let mut row =
+        Row { case: case.into(), quantity: check.quantity.clone(), check: check.clone(), found, verdict: Verdict::Shown };
+    if check.kind != CheckKind::Finding {
+        let inside = row.deviation().is_some_and(|deviation| deviation <= check.tolerance);
+        row.verdict = if inside { Verdict::Green } else { Verdict::Red };
+    }
+    row
+}
+
+/// The number that a check asks for.
+fn find(check: &Check, outcome: &Outcome) -> Option<f64> {
+    match (check.quantity.strip_prefix("profile."), check.at) {
+        (Some(column), Some(z)) => outcome.profile.as_ref()?.at(quantity::find(quantity::COLUMNS, column)?, z),
+        _ => outcome.results.get(&check.quantity),
+    }
+}
+
+/// The table as Markdown: `docs/validation.md`.
+#[must_use]
+pub fn markdown(rows: &[Row]) -> String {
+    let mut text = String::from(
+        "# Validation\n\nWritten by `bedload validate --full`; do not edit. Each row is a `[[check]]` of a shipped case: run the case \
+         to see it in its place.\n\n\
+         - verification: against an exact or independently computed solution of the same equations\n\
+         - validation: against measurements or published results\n\
+         - finding: a claim that is not reproduced; both numbers are shown and it is never red\n\n\
+         | case | quantity | kind | expected | found | deviation | tolerance | verdict | source |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    for row in rows {
+        let at = row.check.at.map_or_else(String::new, |z| format!(" at {} m", significant(z, 4)));
+        let found = row.found.as_ref().map_or_else(Clone::clone, |x| significant(*x, 7));
+        // Below a tenth of the tolerance the digits are round-off, which may differ from machine to machine.
+        let deviation = row.deviation().map_or_else(|| "-".into(), |d| {
+            if d <= 0.1 * row.check.tolerance { format!("< {:.0e}", 0.1 * row.check.tolerance) } else { significant(d, 2) }
+        });
+        let kind = match row.check.kind {
+            CheckKind::Verification => "verification",
+            CheckKind::Validation => "validation",
+            CheckKind::Finding => "finding",
+        };
+        let tier = if row.check.tier == Tier::Full { " (full)" } else { "" };
+        let _ = writeln!(
+            text,
+            "| {} | {}{at} | {kind}{tier} | {} | {found} | {deviation} | {:.0e} | {} | {} |",
+            row.case,
+            row.quantity,
+            significant(row.check.expect, 7),
+            row.check.tolerance,
+            row.verdict.word(),
+            row.check.source.replace('|', "\\|"),
+        );
+    }
+    text
+}
