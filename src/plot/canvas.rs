@@ -73,29 +73,25 @@ impl<DB: DrawingBackend> Canvas<'_, DB> {
         self.area.draw(&Rectangle::new(corners, self.style(role, Dash::Solid).filled())).map_err(PlotError::drawing)
     }
 
-    /// An open symbol of the size of a small letter.
+    /// An open symbol of the size of a small letter: one in its colour and a smaller one in that of the paper.
     pub fn marker(&self, at: Point, marker: Marker, role: Role) -> Result<(), PlotError> {
-        const RADIUS: f64 = 3.2;
-        let around = |corners: &[Point]| -> Vec<Point> {
-            corners.iter().map(|c| (at.0 + RADIUS * c.0, at.1 + RADIUS * c.1)).collect()
-        };
-        let outline = match marker {
-            Marker::Circle => {
-                let inside = self.style(Role::Paper, Dash::Solid).filled();
-                let (at, scale) = (self.point(at), self.medium.scale);
-                self.area
-                    .draw(&Circle::new(at, (RADIUS * scale) as i32, self.style(role, Dash::Solid).filled()))
-                    .and_then(|()| self.area.draw(&Circle::new(at, ((RADIUS - 1.2) * scale) as i32, inside)))
-                    .map_err(PlotError::drawing)?;
-                return Ok(());
-            }
-            Marker::Square => around(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9), (-0.9, -0.9), (0.9, -0.9)]),
-            Marker::Triangle => around(&[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8), (0.0, -1.2), (1.1, 0.8)]),
-        };
-        let inside = outline.iter().map(|&p| self.point(p)).collect::<Vec<_>>();
-        let style = self.style(Role::Paper, Dash::Solid).filled();
-        self.area.draw(&Polygon::new(inside, style)).map_err(PlotError::drawing)?;
-        self.line(&outline, Stroke { role, width: 1.2, dash: Dash::Solid })
+        const RADIUS: f64 = 3.4;
+        const INNER: f64 = 2.1;
+        for (radius, role) in [(RADIUS, role), (INNER, Role::Paper)] {
+            let style = self.style(role, Dash::Solid).filled();
+            let corners: &[Point] = match marker {
+                Marker::Circle => {
+                    let circle = Circle::new(self.point(at), (radius * self.medium.scale).round() as i32, style);
+                    self.area.draw(&circle).map_err(PlotError::drawing)?;
+                    continue;
+                }
+                Marker::Square => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+                Marker::Triangle => &[(0.0, -1.3), (1.15, 0.75), (-1.15, 0.75)],
+            };
+            let around = corners.iter().map(|c| self.point((at.0 + radius * c.0, at.1 + radius * c.1)));
+            self.area.draw(&Polygon::new(around.collect::<Vec<_>>(), style)).map_err(PlotError::drawing)?;
+        }
+        Ok(())
     }
 
     /// A line of text whose base line passes through `at`.

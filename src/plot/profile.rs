@@ -45,8 +45,6 @@ const FLUID: Pen = Pen(1, Dash::Solid);
 const GRAINS: Pen = Pen(2, Dash::Dashed);
 const TURBULENCE: Pen = Pen(3, Dash::DashDotted);
 
-type Values = Vec<Option<f64>>;
-
 struct Scene<'a> {
     profile: &'a Profile,
     summary: &'a Summary,
@@ -136,7 +134,7 @@ impl<'a> Scene<'a> {
         ];
         let present: Vec<Line> = candidates
             .into_iter()
-            .filter_map(|(name, q, pen)| Some(Line { name, pen, values: self.column(q)?.to_vec() }))
+            .filter_map(|(name, q, pen)| Some(Line { name, pen, quantity: Some(q), values: self.column(q)?.to_vec() }))
             .collect();
         self.panel("velocity", "m/s", distinct(present))
     }
@@ -150,14 +148,14 @@ impl<'a> Scene<'a> {
         ];
         let present = candidates
             .into_iter()
-            .filter_map(|(name, q, pen)| Some(Line { name, pen, values: self.column(q)?.to_vec() }))
+            .filter_map(|(name, q, pen)| Some(Line { name, pen, quantity: Some(q), values: self.column(q)?.to_vec() }))
             .collect::<Vec<_>>();
         let mut lines: Vec<Line> = present.iter().filter(|l| l.largest() > 0.0).cloned().collect();
         if lines.is_empty() {
             lines = present.into_iter().take(1).collect();
         } else if lines.len() > 1 {
             let total = (0..self.z.len()).map(|row| self.total(row)).collect();
-            lines.insert(0, Line { name: "total", pen: WHOLE, values: total });
+            lines.insert(0, Line { name: "total", pen: WHOLE, quantity: None, values: total });
         }
         self.panel("shear stress", "Pa", lines)
     }
@@ -176,32 +174,19 @@ impl<'a> Scene<'a> {
         Some(sum)
     }
 
-    /// A panel of one quantity, unless it is zero everywhere; quantities of the grains step at the bed level.
+    /// A panel of one quantity, unless it is zero everywhere.
     fn single(&self, title: &str, quantity: &'static Quantity, pen: Pen) -> Option<Panel> {
-        let values = self.column(quantity)?.to_vec();
-        let line = Line { name: "", pen: Pen(pen.0, Dash::Solid), values };
-        if line.largest() == 0.0 {
+        let line = Line { name: "", pen, quantity: Some(quantity), values: self.column(quantity)?.to_vec() };
+        if line.largest() == 0.0 { None } else { self.panel(title, quantity.unit, vec![line]) }
+    }
+
+    /// Where the grains end between two levels, the solid fraction and what it weighs jump: the first row above, and
+    /// the limits from below and from above.
+    fn jump(&self, line: &Line) -> Option<(usize, f64, f64)> {
+        let name = line.quantity?.name;
+        if ![quantity::PHI.name, quantity::FLUX.name, quantity::U_MIXTURE.name].contains(&name) {
             return None;
         }
-        let step = self.step(quantity, &line.values);
-        let mut panel = self.panel(title, quantity.unit, vec![line])?;
-        if let (Some((row, below, above)), Some(bed), Some(curve)) =
-            (step, self.result(&quantity::BED_LEVEL), panel.curves.first_mut())
-        {
-            let factor = readable_unit(self.largest_of(quantity).max(below.abs()), quantity.unit).0;
-            let y = bed * self.z_unit.0;
-            let jump = [Some((below * factor, y)), Some((above * factor, y))];
-            curve.points.splice(row..row, jump);
-        }
-        Some(panel)
-    }
-
-    fn largest_of(&self, quantity: &Quantity) -> f64 {
-        self.profile.range(quantity).map_or(0.0, |(low, high)| low.abs().max(high.abs()))
-    }
-
-    /// Where the grains end inside a cell: the first row above, the limit from below and the value above.
-    fn step(&self, quantity: &Quantity, values: &[Option<f64>]) -> Option<(usize, f64, f64)> {
         let bed = self.result(&quantity::BED_LEVEL)?;
         let phi = self.column(&quantity::PHI)?;
         let (z, slack) = (&self.z, 1e-9 * bed.abs());
@@ -209,22 +194,24 @@ impl<'a> Scene<'a> {
             z.get(i).is_some_and(|&z| z <= bed + slack) && phi.get(i).copied().flatten().is_some_and(|phi| phi > 0.0)
         })?;
         let above = below + 1;
-        let value = |i: usize| values.get(i).copied().flatten();
-        let empty = phi.get(above).copied().flatten() == Some(0.0) && z.get(above).is_some_and(|&z| z >= bed - slack);
-        if !empty {
+        if phi.get(above).copied().flatten() != Some(0.0) || z.get(above).is_none_or(|&z| z < bed - slack) {
             return None;
         }
         let limit_of_phi = self.result(&quantity::PHI_INTERFACE).or(phi.get(below).copied().flatten())?;
-        let limit = match quantity.name {
-            name if name == quantity::PHI.name => limit_of_phi,
+        let from = |values: &[Option<f64>], near: usize, next: Option<usize>| extrapolated(z, values, near, next?, bed);
+        let under = below.checked_sub(1);
+        let low = if name == quantity::PHI.name {
+            limit_of_phi
+        } else if name == quantity::FLUX.name
+            && let Some(u) = self.column(&quantity::U_PARTICLE).and_then(|u| from(u, below, under))
+        {
             // the flux ends with the velocity that the grains have at their top
-            _ => match self.column(&quantity::U_PARTICLE).and_then(|u| extrapolated(z, u, below, bed)) {
-                Some(u) => limit_of_phi * u,
-                None => extrapolated(z, values, below, bed).or(value(below))?,
-            },
+            limit_of_phi * u
+        } else {
+            from(&line.values, below, under)?
         };
         // undefined above: the line ends at the interface
-        Some((above, limit, value(above).unwrap_or(limit)))
+        Some((above, low, from(&line.values, above, Some(above + 1)).unwrap_or(low)))
     }
 
     /// A panel in a unit that suits its largest value; `None` without curves.
@@ -235,9 +222,12 @@ impl<'a> Scene<'a> {
         let curves: Vec<Curve> = lines
             .into_iter()
             .map(|line| {
-                let at = |(z, x): (&f64, Option<f64>)| x.map(|x| (x * factor, z * self.z_unit.0));
+                let at = |(z, x): (f64, Option<f64>)| x.map(|x| (x * factor, z * self.z_unit.0));
                 let dash = if alone { Dash::Solid } else { line.pen.1 };
-                let points = self.z.iter().zip(line.values).map(at).collect();
+                let mut points: Vec<_> = self.z.iter().copied().zip(line.values.iter().copied()).map(at).collect();
+                if let (Some((row, below, above)), Some(bed)) = (self.jump(&line), self.result(&quantity::BED_LEVEL)) {
+                    points.splice(row..row, [at((bed, Some(below))), at((bed, Some(above)))]);
+                }
                 Curve { name: line.name.into(), points, colour: line.pen.0, line: Some(dash), marker: None }
             })
             .collect();
@@ -250,7 +240,9 @@ impl<'a> Scene<'a> {
 struct Line {
     name: &'static str,
     pen: Pen,
-    values: Values,
+    /// `None` for a sum
+    quantity: Option<&'static Quantity>,
+    values: Vec<Option<f64>>,
 }
 
 impl Line {
@@ -280,12 +272,12 @@ fn distinct(lines: Vec<Line>) -> Vec<Line> {
     kept
 }
 
-/// Linear extrapolation to `to` from row `below` and the one under it.
-fn extrapolated(z: &[f64], values: &[Option<f64>], below: usize, to: f64) -> Option<f64> {
-    let under = below.checked_sub(1)?;
+/// Linear extrapolation to `to` from the rows `near` and `next`; the value in `near` where `next` has none.
+fn extrapolated(z: &[f64], values: &[Option<f64>], near: usize, next: usize, to: f64) -> Option<f64> {
     let at = |i: usize| Some((*z.get(i)?, values.get(i).copied().flatten()?));
-    let ((z0, a), (z1, b)) = (at(under)?, at(below)?);
-    (z1 > z0).then(|| b + (b - a) * (to - z1) / (z1 - z0))
+    let (z1, b) = at(near)?;
+    let slope = at(next).filter(|(z0, _)| *z0 != z1).map_or(0.0, |(z0, a)| (b - a) / (z1 - z0));
+    Some(b + slope * (to - z1))
 }
 
 /// `(a) velocity, (b) shear stress`.

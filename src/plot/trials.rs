@@ -203,11 +203,24 @@ pub(super) fn hostile_failure() -> Summary {
 fn draw_the_trials() {
     let Ok(folder) = std::env::var("BEDLOAD_TRIALS") else { return };
     let folder = std::path::Path::new(&folder);
-    for (profile, summary) in [laminar_bed(), two_fluid_bed(), log_law(), bingham_plane()] {
-        for figure in crate::plot::profile_figures(&profile, &summary) {
-            let stem = format!("{}_{}", summary.case, figure.stem);
-            std::fs::write(folder.join(format!("{stem}.svg")), crate::plot::svg(&figure).unwrap()).unwrap();
+    let equations = "fluid       0 = f + d/dz[(1 + 5/2 φ) η dU/dz] + dτ_p/dz\ngrains      |τ_p| ≤ μ_s P_p,  dP_p/dz = −φ (ρ_p − ρ_f) g\ntransport   q_p = ∫ φ u_p dz";
+    let mut hostile = (laminar_bed().0, hostile_failure());
+    hostile.1.results = Results::default();
+    for (profile, summary) in [laminar_bed(), two_fluid_bed(), log_law(), bingham_plane(), hostile] {
+        let figures = crate::plot::profile_figures(&profile, &summary);
+        let name = if summary.error.is_some() { "hostile" } else { &summary.case };
+        let notes = ["Grains and fluid move together in the mixed form, so it has no threshold of motion.".to_owned()];
+        let case_toml = "format = 1\n\n[case]\nname = \"ouriemi\"";
+        let page = crate::plot::Page { summary: &summary, figures: &figures, equations, case_toml, notes: &notes };
+        std::fs::write(folder.join(format!("{name}.html")), crate::plot::report_html(&page)).unwrap();
+        for figure in figures {
+            let stem = format!("{name}_{}", figure.stem);
+            let begin = std::time::Instant::now();
+            let drawing = crate::plot::svg(&figure).unwrap();
+            let svg_time = begin.elapsed();
+            std::fs::write(folder.join(format!("{stem}.svg")), drawing).unwrap();
             crate::plot::png(&figure, &folder.join(format!("{stem}.png"))).unwrap();
+            println!("{stem}: svg {svg_time:?}, svg and png {:?}", begin.elapsed());
         }
     }
 }
