@@ -3,7 +3,6 @@
 use clap::Args;
 
 use super::{CaseArgs, CliError, say};
-use crate::run::closures;
 
 /// Show the equations that a case solves, with its numbers, and the laws in them.
 #[derive(Debug, Args)]
@@ -16,7 +15,7 @@ impl Explain {
     pub(super) fn execute(self) -> Result<(), CliError> {
         let (_, problem) = self.case.load()?;
         let mut text = format!("{}\n{} ({})\n\n{}", problem.title, problem.name, problem.model_name(), crate::equations(&problem));
-        let laws = closures(&problem);
+        let laws = crate::laws(&problem);
         if !laws.is_empty() {
             text += "\nLaws\n";
         }

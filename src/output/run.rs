@@ -175,8 +175,7 @@ fn draw(
         let path = place.join(name);
         move |error: PlotError| OutputError::Interrupted { path, error: io::Error::other(error) }
     };
-    let page = plot::report_html(&Page { summary, figures: &figures, equations, case_toml: case })
-        .map_err(failed("report.html"))?;
+    let page = plot::report_html(&Page { summary, figures: &figures, equations, case_toml: case, notes: &[] });
     write_whole(&place.join("report.html"), |to| to.write_all(page.as_bytes()))?;
     if !png {
         return Ok(Vec::new());

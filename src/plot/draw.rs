@@ -1,0 +1,147 @@
+//! Draws a laid-out figure on any plotters backend.
+
+use plotters::coord::Shift;
+use plotters::drawing::DrawingArea;
+use plotters::prelude::DrawingBackend;
+
+use super::canvas::{Align, Canvas, Medium, Stroke};
+use super::layout::{Frame, Layout, ROW, SAMPLE, SAMPLE_GAP, title};
+use super::theme::{BOLD, HAIR, LABEL, Role, SMALL};
+use super::{Curve, Dash, Figure, Panel, PlotError};
+
+const TICK: f64 = 5.0;
+const MINOR_TICK: f64 = 2.8;
+const FRAME: Stroke = Stroke { role: Role::Ink, width: HAIR, dash: Dash::Solid };
+const LEVEL: Stroke = Stroke { role: Role::Faint, width: HAIR, dash: Dash::Dashed };
+
+/// Draws `figure` as `layout` says.
+pub(super) fn draw<DB: DrawingBackend>(
+    area: &DrawingArea<DB, Shift>,
+    medium: Medium,
+    figure: &Figure,
+    layout: &Layout,
+) -> Result<(), PlotError> {
+    let canvas = Canvas { area, medium };
+    let (bottom, top) = layout.y.span;
+    for (i, (panel, frame)) in figure.panels.iter().zip(&layout.frames).enumerate() {
+        tint(&canvas, figure, layout, frame)?;
+        for level in figure.levels.iter().filter(|l| layout.y.holds(l.y)) {
+            let y = layout.y.at(level.y);
+            canvas.line(&[(frame.x.span.0, y), (frame.x.span.1, y)], LEVEL)?;
+        }
+        axes(&canvas, layout, frame, i == 0)?;
+        for curve in &panel.curves {
+            draw_curve(&canvas, figure, panel, curve, (layout, frame))?;
+        }
+        legend(&canvas, panel, frame)?;
+        let centre = (frame.x.span.0 + frame.x.span.1) / 2.0;
+        canvas.text(&title(&panel.x, &frame.x), (centre, bottom + 36.0), LABEL, Align::Centre, Role::Ink)?;
+        let letter = figure.letter(i);
+        if !letter.is_empty() {
+            canvas.text(&letter, (frame.x.span.0, top - 6.0), LABEL, Align::Left, Role::Ink)?;
+        }
+    }
+    let middle = (bottom + top) / 2.0;
+    canvas.text(&title(&figure.y, &layout.y), (layout.title_x, middle), LABEL, Align::Upward, Role::Ink)?;
+    if let Some(last) = layout.frames.last() {
+        for (level, y) in figure.levels.iter().zip(&layout.labels) {
+            if let Some(y) = *y {
+                canvas.text(&level.label, (last.x.span.1 + 7.0, y), SMALL, Align::Left, Role::Faint)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn tint<DB: DrawingBackend>(
+    canvas: &Canvas<'_, DB>,
+    figure: &Figure,
+    layout: &Layout,
+    frame: &Frame,
+) -> Result<(), PlotError> {
+    let (low, high) = layout.y.limits;
+    match figure.tint_below {
+        Some(level) if level > low => {
+            let top = layout.y.at(level.min(high));
+            canvas.fill((frame.x.span.0, top), (frame.x.span.1, layout.y.span.0), Role::Tint)
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Frame, ticks inside on all four sides, numbers below and at the left of the first panel.
+fn axes<DB: DrawingBackend>(
+    canvas: &Canvas<'_, DB>,
+    layout: &Layout,
+    frame: &Frame,
+    numbered: bool,
+) -> Result<(), PlotError> {
+    let (left, right) = frame.x.span;
+    let (bottom, top) = layout.y.span;
+    for tick in &frame.x.ticks {
+        let (x, length) = (frame.x.at(tick.at), if tick.label.is_empty() { MINOR_TICK } else { TICK });
+        if x > left + 1.0 && x < right - 1.0 {
+            canvas.line(&[(x, bottom), (x, bottom - length)], FRAME)?;
+            canvas.line(&[(x, top), (x, top + length)], FRAME)?;
+        }
+        if !tick.label.is_empty() {
+            canvas.text(&tick.label, (x, bottom + 16.0), SMALL, Align::Centre, Role::Ink)?;
+        }
+    }
+    for tick in &layout.y.ticks {
+        let (y, length) = (layout.y.at(tick.at), if tick.label.is_empty() { MINOR_TICK } else { TICK });
+        if y < bottom - 1.0 && y > top + 1.0 {
+            canvas.line(&[(left, y), (left + length, y)], FRAME)?;
+            canvas.line(&[(right, y), (right - length, y)], FRAME)?;
+        }
+        if numbered && !tick.label.is_empty() {
+            canvas.text(&tick.label, (left - 6.0, y + 0.36 * SMALL), SMALL, Align::Right, Role::Ink)?;
+        }
+    }
+    // the ends meet without overlap: a bitmap backend would leave out what a line covers twice
+    let half = HAIR / 2.0;
+    canvas.line(&[(left - half, top), (right, top), (right, bottom), (left, bottom), (left, top + half)], FRAME)
+}
+
+fn draw_curve<DB: DrawingBackend>(
+    canvas: &Canvas<'_, DB>,
+    figure: &Figure,
+    panel: &Panel,
+    curve: &Curve,
+    (layout, frame): (&Layout, &Frame),
+) -> Result<(), PlotError> {
+    let role = Role::Series(curve.colour);
+    for piece in figure.pieces(panel, curve) {
+        let line: Vec<(f64, f64)> = piece.iter().map(|&(x, y)| (frame.x.at(x), layout.y.at(y))).collect();
+        match (curve.line, line.as_slice()) {
+            // a lone point would be an invisible line
+            (Some(_), &[(x, y)]) => {
+                canvas.line(&[(x - 2.0, y), (x + 2.0, y)], Stroke { role, width: BOLD, dash: Dash::Solid })?;
+            }
+            (Some(dash), points) => canvas.line(points, Stroke { role, width: BOLD, dash })?,
+            (None, _) => {}
+        }
+        if let Some(marker) = curve.marker {
+            for &at in &line {
+                canvas.marker(at, marker, role)?;
+            }
+        }
+    }
+    Ok(())
+}
+
+fn legend<DB: DrawingBackend>(canvas: &Canvas<'_, DB>, panel: &Panel, frame: &Frame) -> Result<(), PlotError> {
+    let Some((left, top)) = frame.legend else { return Ok(()) };
+    for (row, curve) in panel.curves.iter().filter(|c| !c.name.is_empty()).enumerate() {
+        let (role, middle) = (Role::Series(curve.colour), top + ROW * (row as f64 + 0.5));
+        if let Some(dash) = curve.line {
+            canvas.line(&[(left, middle), (left + SAMPLE, middle)], Stroke { role, width: BOLD, dash })?;
+        }
+        if let Some(marker) = curve.marker {
+            canvas.marker((left + SAMPLE / 2.0, middle), marker, role)?;
+        }
+        let at = (left + SAMPLE + SAMPLE_GAP, middle + 0.34 * SMALL);
+        canvas.text(&curve.name, at, SMALL, Align::Left, Role::Ink)?;
+    }
+    Ok(())
+}

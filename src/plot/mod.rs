@@ -1,0 +1,52 @@
+//! Figures and the page of a run, from stored results alone: [`profile_figures`] makes figures of a profile, [`svg`]
+//! and [`png`] draw them, [`report_html`] sets the page.
+
+mod axis;
+mod canvas;
+mod draw;
+mod figure;
+mod layout;
+mod png;
+mod profile;
+mod report;
+mod svg;
+mod theme;
+#[cfg(test)]
+mod trials;
+
+use std::fmt::Display;
+use std::path::PathBuf;
+
+pub use figure::{Axis, Curve, Dash, Figure, Level, Marker, Panel, Scale};
+pub use png::png;
+pub use profile::profile_figures;
+pub use report::{Page, report_html};
+pub use svg::svg;
+
+/// Why a figure could not be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PlotError {
+    /// the embedded font is damaged: a defect of the program
+    #[error("the embedded font cannot be read")]
+    Font,
+    /// a backend refused a drawing operation
+    #[error("the figure cannot be drawn: {message}")]
+    Drawing {
+        /// what plotters says
+        message: String,
+    },
+    /// the file cannot be written
+    #[error("{} cannot be written: {message}", path.display())]
+    Write {
+        /// the file
+        path: PathBuf,
+        /// what the system says
+        message: String,
+    },
+}
+
+impl PlotError {
+    fn drawing(error: impl Display) -> Self {
+        Self::Drawing { message: error.to_string() }
+    }
+}

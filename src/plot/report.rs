@@ -1,0 +1,330 @@
+//! The page of a run: numbers first, then what to doubt, the figures, the equations and the origin. One file, no
+//! network, no scripts; light and dark as the reader has it.
+
+use std::fmt::Write as _;
+
+use crate::result::quantity::{self, RESULTS};
+use crate::result::{Reported, Status, Summary};
+use crate::units::{readable, significant};
+
+use super::svg::{escape, svg};
+use super::{Figure, theme};
+
+/// What the page shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Page<'a> {
+    /// numbers, balances, warnings, cost, provenance
+    pub summary: &'a Summary,
+    /// in order
+    pub figures: &'a [Figure],
+    /// the equations solved, as text with line breaks
+    pub equations: &'a str,
+    /// the resolved case
+    pub case_toml: &'a str,
+    /// remarks, one paragraph each
+    pub notes: &'a [String],
+}
+
+/// The page as one self-contained HTML document. Everything that comes from a user is escaped; a figure that cannot
+/// be drawn is replaced by the reason.
+#[must_use]
+pub fn report_html(page: &Page<'_>) -> String {
+    let summary = page.summary;
+    let case = escape(&summary.case);
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
+         <meta name=\"color-scheme\" content=\"light dark\"><meta name=\"generator\" content=\"bedload {}\">\
+         <title>{case} · bedload</title>\n<style>:root{{{}}}\n@media(prefers-color-scheme:dark){{:root{{{}}}}}\n\
+         @media print{{:root{{{}}}}}\n{}</style></head>\n<body><main>\n",
+        escape(&summary.provenance.bedload),
+        theme::variables(false),
+        theme::variables(true),
+        theme::variables(false),
+        include_str!("report.css"),
+    );
+    let (word, class) = match summary.status {
+        Status::Done => ("done", "good"),
+        Status::Running => ("running", "warn"),
+        Status::Failed => ("failed", "bad"),
+        Status::Stopped => ("stopped by the user", "warn"),
+    };
+    html += &format!(
+        "<header><h1>{case}</h1><p class=\"sub\">{} <span class=\"badge {class}\">{word}</span></p></header>\n",
+        escape(&summary.model)
+    );
+    html += &error(summary);
+    html += &validity(summary);
+    html += &results(summary);
+    html += &balances(summary);
+    html += &figures(page.figures);
+    for note in page.notes {
+        html += &format!("<p class=\"note\">{}</p>\n", escape(note));
+    }
+    if !page.equations.trim().is_empty() {
+        html += &format!(
+            "<section><h2>Equations solved</h2><pre class=\"equations\">{}</pre></section>\n",
+            escape(page.equations.trim_end())
+        );
+    }
+    html += &origin(summary);
+    html += &format!(
+        "<details><summary>Resolved case, every default filled in</summary><pre>{}</pre></details>\n</main></body></html>\n",
+        escape(page.case_toml.trim_end())
+    );
+    html
+}
+
+/// What went wrong, before everything else.
+fn error(summary: &Summary) -> String {
+    let Some(error) = &summary.error else { return String::new() };
+    let mut html = format!(
+        "<section class=\"alert bad\" role=\"alert\"><h2><code>{}</code></h2><p>{}</p>",
+        escape(&error.code),
+        escape(&error.message)
+    );
+    let line = error.line.map(|line| format!("line {line}"));
+    let place = [error.path.clone(), line].into_iter().flatten().collect::<Vec<_>>().join(", ");
+    for (name, text) in [("Where", Some(&place)), ("Allowed", error.allowed.as_ref()), ("Hint", error.hint.as_ref())] {
+        if let Some(text) = text.filter(|t| !t.is_empty()) {
+            html += &format!("<p><b>{name}:</b> {}</p>", escape(text));
+        }
+    }
+    html + "<p>What follows is the last good state, where there is one.</p></section>\n"
+}
+
+/// Closures outside their range.
+fn validity(summary: &Summary) -> String {
+    if summary.validity.is_empty() {
+        return String::new();
+    }
+    let mut html = String::from(
+        "<section class=\"alert warn\"><h2>Used outside the published range</h2><div class=\"wide\"><table><thead><tr>\
+         <th>closure</th><th>variable</th><th class=\"num\">furthest value</th><th>range</th><th class=\"num\">at z</th>\
+         </tr></thead><tbody>",
+    );
+    for v in &summary.validity {
+        html += &format!(
+            "<tr><td><code>{}</code></td><td>{}</td><td class=\"num\">{}</td><td>{}</td><td class=\"num\">{}</td></tr>",
+            escape(&v.closure),
+            escape(&v.variable),
+            typeset(&significant(v.value, 4)),
+            escape(&v.range),
+            v.z_m.map_or_else(|| "–".into(), |z| typeset(&readable(z, "m"))),
+        );
+    }
+    html + "</tbody></table></div></section>\n"
+}
+
+/// The named numbers, each in a readable unit, with all its digits on hover.
+fn results(summary: &Summary) -> String {
+    let mut rows = String::new();
+    for (name, reported) in summary.results.iter() {
+        let known = quantity::find(RESULTS, name);
+        let (title, symbol) = known.map_or((name, ""), |q| (q.title, q.symbol));
+        let unit = known.map_or("1", |q| q.unit);
+        rows += &format!(
+            "<tr><th scope=\"row\" title=\"{}\">{}</th><td class=\"symbol\">{}</td><td class=\"num\" title=\"{}\">{}</td></tr>\n",
+            escape(known.map_or("", |q| q.definition)),
+            escape(title),
+            subscripts(symbol),
+            escape(&full(name, reported)),
+            value(reported, unit),
+        );
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    format!("<section><h2>Results</h2><table class=\"results\"><tbody>\n{rows}</tbody></table></section>\n")
+}
+
+fn value(reported: &Reported, unit: &'static str) -> String {
+    let Some(value) = reported.value else {
+        return format!("<span class=\"none\">– {}</span>", escape(reported.reason.as_deref().unwrap_or("undefined")));
+    };
+    let error =
+        reported.stderr.map_or_else(String::new, |e| format!(" <small>± {}</small>", typeset(&readable(e, unit))));
+    typeset(&readable(value, unit)) + &error
+}
+
+/// `u_max_m_s = 0.31234567`.
+fn full(name: &str, reported: &Reported) -> String {
+    let mut text = format!("{name} = {}", reported.value.map_or_else(|| "null".into(), |v| format!("{v:?}")));
+    if let Some(error) = reported.stderr {
+        let written = write!(text, " ± {error:?}");
+        debug_assert!(written.is_ok(), "writing to a string does not fail");
+    }
+    text
+}
+
+fn balances(summary: &Summary) -> String {
+    if summary.balances.is_empty() {
+        return String::new();
+    }
+    let mut html = String::from(
+        "<section><h2>Balances</h2><div class=\"wide\"><table><thead><tr><th>of</th><th class=\"num\">relative residual</th>\
+         <th>how</th></tr></thead><tbody>",
+    );
+    for b in &summary.balances {
+        html += &format!(
+            "<tr><td>{}</td><td class=\"num\" title=\"{:?}\">{}</td><td>{}</td></tr>",
+            escape(&b.name.replace('_', " ")),
+            b.relative,
+            typeset(&significant(b.relative, 2)),
+            escape(&b.how)
+        );
+    }
+    html + "</tbody></table></div></section>\n"
+}
+
+fn figures(figures: &[Figure]) -> String {
+    let mut html = String::new();
+    for figure in figures {
+        let drawing = svg(figure).unwrap_or_else(|error| format!("<p>{}</p>", escape(&error.to_string())));
+        html += &format!(
+            "<figure id=\"{}\"><div class=\"wide\">{drawing}</div><figcaption>{}</figcaption></figure>\n",
+            escape(&figure.stem),
+            escape(&figure.caption)
+        );
+    }
+    html
+}
+
+/// Small numbers, cost and provenance.
+fn origin(summary: &Summary) -> String {
+    let mut regularisation: Vec<(String, String)> = Vec::new();
+    for (name, value) in &summary.regularisation {
+        regularisation.push((name.clone(), value.as_str().map_or_else(|| value.to_string(), str::to_owned)));
+    }
+    let cost = &summary.cost;
+    let mut costs = vec![
+        ("solver".to_owned(), duration(cost.solve_s)),
+        ("everything".to_owned(), duration(cost.total_s)),
+        ("work".to_owned(), format!("{} units", cost.work_units)),
+    ];
+    if let Some(memory) = cost.peak_memory_mb {
+        costs.push(("peak memory".to_owned(), format!("{memory:.1} MB")));
+    }
+    let p = &summary.provenance;
+    let facts = [
+        ("bedload", format!("{} ({})", p.bedload, p.commit)),
+        ("compiler", p.rustc.clone()),
+        ("target", p.target.clone()),
+        ("case", p.source.clone()),
+        ("set", p.overrides.join("  ")),
+        ("SHA-256 of the case", p.case_sha256.clone()),
+        ("started", p.started_utc.clone()),
+        ("threads", p.threads.to_string()),
+    ];
+    let facts: Vec<(String, String)> = facts.into_iter().map(|(k, v)| (k.to_owned(), v)).collect();
+    let columns =
+        [("Regularisation", regularisation), ("Cost", costs), ("Provenance", facts)].map(|(t, rows)| pairs(t, &rows));
+    format!("<section class=\"origin\">{}</section>\n", columns.concat())
+}
+
+/// A titled list of names and texts; texts that are empty are left out.
+fn pairs(title: &str, rows: &[(String, String)]) -> String {
+    let mut items = String::new();
+    for (name, text) in rows.iter().filter(|(_, text)| !text.is_empty()) {
+        items += &format!("<dt>{}</dt><dd>{}</dd>", escape(name), escape(text));
+    }
+    if items.is_empty() { items } else { format!("<div><h2>{title}</h2><dl>{items}</dl></div>") }
+}
+
+/// `2.1 ms`.
+fn duration(seconds: f64) -> String {
+    match seconds {
+        s if s < 1e-3 => format!("{:.0} µs", s * 1e6),
+        s if s < 1.0 => format!("{:.1} ms", s * 1e3),
+        s if s < 120.0 => format!("{s:.1} s"),
+        s => format!("{:.1} min", s / 60.0),
+    }
+}
+
+/// `3.310e-5 m²/s` as it is printed: 3.310 × 10 to the −5.
+fn typeset(number: &str) -> String {
+    let (mantissa, unit) = number.split_once(' ').unwrap_or((number, ""));
+    let minus = |text: &str| escape(text).replace('-', "−");
+    let figures = match mantissa.split_once('e') {
+        Some((digits, power)) => format!("{} × 10<sup>{}</sup>", minus(digits), minus(power)),
+        None => minus(mantissa),
+    };
+    if unit.is_empty() { figures } else { format!("{figures}&nbsp;{}", escape(unit)) }
+}
+
+/// `u_max` with its index below the line.
+fn subscripts(symbol: &str) -> String {
+    let (mut html, mut below) = (String::new(), false);
+    for c in symbol.chars() {
+        if below && !(c.is_alphanumeric() || c == '*') {
+            html.push_str("</sub>");
+            below = false;
+        }
+        if c == '_' {
+            html.push_str("<sub>");
+            below = true;
+        } else {
+            html.push_str(&escape(&c.to_string()));
+        }
+    }
+    html + if below { "</sub>" } else { "" }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{profile_figures, trials};
+    use super::*;
+
+    #[test]
+    fn numbers_and_symbols_are_typeset() {
+        assert_eq!(typeset("3.310e-5 kg/(m s)"), "3.310 × 10<sup>−5</sup>&nbsp;kg/(m s)");
+        assert_eq!(typeset("-0.25"), "−0.25");
+        assert_eq!(subscripts("q_p/φ"), "q<sub>p</sub>/φ");
+        assert_eq!(subscripts("u_*"), "u<sub>*</sub>");
+        assert_eq!(subscripts("z(u_max)"), "z(u<sub>max</sub>)");
+        assert_eq!(duration(2.1e-4), "210 µs");
+    }
+
+    #[test]
+    fn the_page_says_the_numbers_first_and_every_digit_on_hover() {
+        let (profile, summary) = trials::laminar_bed();
+        let figures = profile_figures(&profile, &summary);
+        let toml = "format = 1";
+        let html = report_html(&Page {
+            summary: &summary,
+            figures: &figures,
+            equations: "τ = η du/dz",
+            case_toml: toml,
+            notes: &[],
+        });
+        let order =
+            ["Used outside", "<h2>Results", "<h2>Balances", "<figure", "Equations solved", "<h2>Cost", "<details"];
+        let places: Vec<usize> = order.iter().map(|text| html.find(text).unwrap()).collect();
+        assert!(places.is_sorted(), "{places:?}");
+        assert!(html.contains("transport_rate_m2_s = 3.3103e-5") && html.contains("33.10&nbsp;mm²/s"));
+        assert!(html.contains("the phases move together"));
+        assert!(
+            !html.contains("http://")
+                || html.matches("http").count() == html.matches("http://www.w3.org/2000/svg").count()
+        );
+    }
+
+    #[test]
+    fn nothing_from_a_user_becomes_markup() {
+        let summary = trials::hostile_failure();
+        let figures = profile_figures(&trials::laminar_bed().0, &summary);
+        let hostile = "</pre><script>alert(1)</script>";
+        let html = report_html(&Page {
+            summary: &summary,
+            figures: &figures,
+            equations: hostile,
+            case_toml: hostile,
+            notes: &[hostile.into()],
+        });
+        assert!(!html.contains("<script") && !html.contains("<img") && !html.contains("</title><script"));
+        assert!(html.contains("&lt;script&gt;"));
+        let alert = html.find("no-static-bed").unwrap();
+        assert!(alert < html.find("<h2>Results").unwrap());
+        assert!(html.contains("lower the drive, or raise mu_s or phi") && html.contains("badge bad"));
+    }
+}

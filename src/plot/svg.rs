@@ -1,0 +1,105 @@
+//! A figure as inline SVG: plotters draws it large on its integer grid, classes replace the colours, so that the page
+//! that shows it decides about light and dark.
+
+use std::fmt::Write as _;
+
+use plotters::prelude::{IntoDrawingArea, SVGBackend};
+
+use super::canvas::{LINE_HEIGHT, Medium};
+use super::draw::draw;
+use super::layout::Layout;
+use super::{Figure, PlotError, theme};
+
+/// Grid steps per unit of the figure.
+const GRID: f64 = 10.0;
+
+/// Size over which plotters divides the size of a font when it writes it to SVG.
+const PLOTTERS_SIZE_OVER_EM: f64 = 1.24;
+
+/// Draws `figure` as an `<svg>` element without a fixed width. Its colours are the CSS variables `--ink`, `--faint`,
+/// `--tint`, `--paper` and `--c0` to `--c6`, and those of a light theme where a page does not define them.
+///
+/// # Errors
+/// [`PlotError::Font`] or [`PlotError::Drawing`], neither of which depends on the data.
+pub fn svg(figure: &Figure) -> Result<String, PlotError> {
+    let layout = Layout::new(figure)?;
+    let medium = Medium { scale: GRID, ascent: 0.0, dashes_later: true, paint: theme::sentinel };
+    let size = ((layout.size.0 * GRID).ceil() as u32, (layout.size.1 * GRID).ceil() as u32);
+    let mut raw = String::new();
+    {
+        let area = SVGBackend::with_string(&mut raw, size).into_drawing_area();
+        draw(&area, medium, figure, &layout)?;
+        area.present().map_err(PlotError::drawing)?;
+    }
+    let mut out = format!(
+        "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" style=\"max-width:{:.0}px\" \
+         role=\"img\" font-size=\"{:.0}\"><title>{}</title><style>{}</style>\n",
+        size.0,
+        size.1,
+        layout.size.0 * 1.15,
+        theme::SMALL * GRID,
+        escape(&figure.caption),
+        theme::rules(GRID),
+    );
+    let body = raw.split_once('>').map_or("", |(_, body)| body);
+    for part in body.split_inclusive('>') {
+        // text stands before a tag; there it is escaped already
+        let (text, tag) = part.split_once('<').unwrap_or((part, ""));
+        out.push_str(text.trim_matches('\n'));
+        if !tag.is_empty() {
+            restyle(tag, &mut out);
+        }
+    }
+    Ok(out)
+}
+
+/// Writes a tag, given without its `<`, with classes for sentinel colours and without what the classes imply.
+fn restyle(tag: &str, out: &mut String) {
+    let closed = tag.trim_end_matches('>');
+    let (head, end) = closed.strip_suffix('/').map_or((closed, ">"), |head| (head, "/>\n"));
+    let (name, mut rest) = head.split_once(' ').unwrap_or((head, ""));
+    out.push('<');
+    out.push_str(name);
+    while let Some((key, value, after)) = attribute(rest) {
+        rest = after;
+        let written = match (key, theme::unseal(value)) {
+            ("stroke", Some((colour, 0))) => write!(out, " class=\"s-{colour}\""),
+            ("stroke", Some((colour, dash))) => write!(out, " class=\"s-{colour} d{dash}\""),
+            ("fill", Some((colour, _))) => write!(out, " class=\"f-{colour}\""),
+            ("fill" | "stroke", None) | ("opacity" | "font-family" | "dy", _) => Ok(()),
+            ("text-anchor", _) if value == "start" => Ok(()),
+            ("font-size", _) => {
+                let em = value.parse::<f64>().unwrap_or(0.0) * PLOTTERS_SIZE_OVER_EM / LINE_HEIGHT;
+                if (em - theme::SMALL * GRID).abs() < 0.5 { Ok(()) } else { write!(out, " font-size=\"{em:.0}\"") }
+            }
+            _ => write!(out, " {key}=\"{}\"", value.trim_end()),
+        };
+        debug_assert!(written.is_ok(), "writing to a string does not fail");
+    }
+    out.push_str(if name.starts_with('/') { ">\n" } else { end });
+}
+
+/// The first attribute of ` key="value" ...`, and what follows it.
+fn attribute(text: &str) -> Option<(&str, &str, &str)> {
+    let (key, rest) = text.split_once("=\"")?;
+    let (value, rest) = rest.split_once('"')?;
+    Some((key.trim(), value, rest))
+}
+
+/// Text for HTML and SVG, in elements and in attributes.
+pub(super) fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '&' => out.push_str("&amp;"),
+            '"' => out.push_str("&quot;"),
+            '\'' => out.push_str("&#39;"),
+            // not allowed in XML, and of no meaning here
+            c if c.is_control() && !matches!(c, '\n' | '\t') => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
