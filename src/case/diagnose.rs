@@ -243,7 +243,8 @@ impl Walk {
     }
 
     fn unknown(&mut self, name: &str, node: &Node, schema: &Value, path: &str) {
-        let what = if path.is_empty() && matches!(node.data, Data::Table(_) | Data::Array(_)) { "table" } else { "key" };
+        let what =
+            if path.is_empty() && matches!(node.data, Data::Table(_) | Data::Array(_)) { "table" } else { "key" };
         let allowed: Vec<String> = schema::properties(schema).map(|(k, _)| k.clone()).collect();
         let child_path = join(path, name);
         let users: Vec<String> =
@@ -265,7 +266,8 @@ impl Walk {
     }
 
     fn missing(&mut self, name: &str, schema: &Value, path: &str, at: &Span) {
-        let is_table = path.is_empty() && (schema.get("properties").is_some() || schema::alternatives(schema).is_some());
+        let is_table =
+            path.is_empty() && (schema.get("properties").is_some() || schema::alternatives(schema).is_some());
         let allowed = if is_table {
             let keys: Vec<&str> = schema::properties(schema).map(|(k, _)| k.as_str()).collect();
             format!("a table with {}", keys.join(", "))
@@ -378,5 +380,7 @@ fn elsewhere(schema: &Value, name: &str, path: &str) -> Option<String> {
         .filter(|(table, s)| table.as_str() != path && schema::properties(s).any(|(k, _)| k == name))
         .map(|(table, s)| if s.get("items").is_some() { format!("[[{table}]]") } else { format!("[{table}]") })
         .next()
-        .or_else(|| schema::properties(schema).any(|(k, _)| k == name && !path.is_empty()).then(|| "the top of the file".into()))
+        .or_else(|| {
+            schema::properties(schema).any(|(k, _)| k == name && !path.is_empty()).then(|| "the top of the file".into())
+        })
 }

@@ -322,9 +322,7 @@ impl Fault {
             Self::Unknown { nearest, elsewhere, .. } => {
                 elsewhere.as_ref().map(|table| format!("it belongs to {table}")).or_else(|| meant(nearest))
             }
-            Self::NotUsed { users, .. } => {
-                Some(format!("remove it; used by {}", users.join(", ")))
-            }
+            Self::NotUsed { users, .. } => Some(format!("remove it; used by {}", users.join(", "))),
             Self::Missing { description, .. } if !description.is_empty() => Some(description.clone()),
             Self::Syntax { quoted: Some(line), .. } => Some(format!("a quantity with a unit is a text: {line}")),
             Self::Unit { error: UnitError::UnknownUnit { nearest: Some(n), .. }, .. } => {
@@ -337,7 +335,9 @@ impl Fault {
                 Some("keep one; `--set flow.KEY=` (an empty value) removes a key".into())
             }
             Self::Drives { .. } => Some("give exactly one".into()),
-            Self::BadSet { .. } => Some("for example --set flow.height=\"65 mm\"; an empty value removes the key".into()),
+            Self::BadSet { .. } => {
+                Some("for example --set flow.height=\"65 mm\"; an empty value removes the key".into())
+            }
             Self::Empty | Self::Binary { .. } | Self::NotUtf8 { .. } => {
                 Some("`bedload new` writes a case to start from".into())
             }

@@ -47,17 +47,16 @@ impl Case {
             }
         }
         match diagnose(&document) {
-            Ok((scene, value)) if violations.is_empty() => {
-                Self::build(name, source, scene, value, document, overrides)
-            }
+            Ok((scene, value)) if violations.is_empty() => Self::build(name, source, scene, value, document, overrides),
             Ok(_) => Err(CaseError { document, violations }),
             Err(more) => {
                 // Where the syntax is broken, what is missing or mistyped may only be unreadable.
-                let trusted = |v: &Violation| {
-                    broken.is_empty()
-                        || !(matches!(v.fault, Fault::Missing { .. } | Fault::Drives { .. } | Fault::Empty)
-                            || document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)))
+                let unreadable = |v: &Violation| match &v.fault {
+                    Fault::Missing { .. } | Fault::Empty => true,
+                    Fault::Drives { given, .. } => given.is_empty(),
+                    _ => document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)),
                 };
+                let trusted = |v: &Violation| broken.is_empty() || !unreadable(v);
                 violations.extend(more.into_iter().filter(trusted));
                 Err(CaseError { document, violations })
             }
@@ -67,7 +66,8 @@ impl Case {
 
 /// Reads a case file as text.
 fn read(path: &Path) -> Result<String, Fault> {
-    let unreadable = |error: std::io::Error| Fault::Unreadable { file: path.display().to_string(), reason: error.to_string() };
+    let unreadable =
+        |error: std::io::Error| Fault::Unreadable { file: path.display().to_string(), reason: error.to_string() };
     if path.is_dir() {
         return Err(Fault::Unreadable { file: path.display().to_string(), reason: "it is a folder".into() });
     }

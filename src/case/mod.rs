@@ -17,8 +17,8 @@ pub mod schema;
 pub mod shipped;
 pub mod tables;
 
-pub use document::{Document, Span, Text};
 pub use diagnose::nearest;
+pub use document::{Document, Span, Text};
 pub use fault::{Fault, Violation};
 pub use reference::reference;
 pub use scene::Scene;
@@ -89,7 +89,10 @@ impl Case {
     pub fn refuse(self, faults: Vec<(String, Fault)>) -> CaseError {
         let violations = faults
             .into_iter()
-            .map(|(path, fault)| { let span = self.document.locate(&path); Violation::new(fault, path, span) })
+            .map(|(path, fault)| {
+                let span = self.document.locate(&path);
+                Violation::new(fault, path, span)
+            })
             .collect();
         CaseError { document: self.document, violations }
     }

@@ -75,7 +75,13 @@ fn what(schema: &Value) -> String {
     if let Some(constants) = schema::constants(schema) {
         let choices: Vec<String> = constants
             .iter()
-            .map(|(c, about)| if about.is_empty() || constants.len() == 1 { format!("`\"{c}\"`") } else { format!("`\"{c}\"`: {about}") })
+            .map(|(c, about)| {
+                if about.is_empty() || constants.len() == 1 {
+                    format!("`\"{c}\"`")
+                } else {
+                    format!("`\"{c}\"`: {about}")
+                }
+            })
             .collect();
         return choices.join(" ");
     }

@@ -40,7 +40,11 @@ impl CaseError {
             code: v.fault.code().into(),
             message: printable(&v.fault.to_string()),
             path: (!v.path.is_empty()).then(|| v.path.clone()),
-            line: v.spans.first().filter(|_| !self.document.texts[0].content.is_empty()).and_then(|s| self.document.line(s)),
+            line: v
+                .spans
+                .first()
+                .filter(|_| !self.document.texts[0].content.is_empty())
+                .and_then(|s| self.document.line(s)),
             allowed: v.fault.allowed(),
             hint: v.fault.hint(),
         };
@@ -97,7 +101,11 @@ impl Shown {
 fn printable(text: &str) -> String {
     let plain = |c: char| if c.is_control() && !matches!(c, '\n' | '\t') { '?' } else { c };
     // C1 controls are two bytes long: keep the offsets.
-    text.chars().map(plain).zip(text.chars()).flat_map(|(to, from)| std::iter::repeat_n(to, if to == '?' && from != '?' { from.len_utf8() } else { 1 })).collect()
+    text.chars()
+        .map(plain)
+        .zip(text.chars())
+        .flat_map(|(to, from)| std::iter::repeat_n(to, if to == '?' && from != '?' { from.len_utf8() } else { 1 }))
+        .collect()
 }
 
 /// A span cut to the text, on character boundaries, and no longer than its first line.
@@ -119,7 +127,9 @@ fn excerpt(name: &str, content: String, span: &Range<usize>) -> (String, String,
     let line_start = content[..span.start].rfind('\n').map_or(0, |i| i + 1);
     let line_end = content[span.start..].find('\n').map_or(content.len(), |i| span.start + i);
     let before = content[..line_start.saturating_sub(1)].rfind('\n').map_or(0, |i| i + 1);
-    let after = content.get(line_end + 1..).map_or(line_end, |rest| rest.find('\n').map_or(content.len(), |i| line_end + 1 + i));
+    let after = content
+        .get(line_end + 1..)
+        .map_or(line_end, |rest| rest.find('\n').map_or(content.len(), |i| line_end + 1 + i));
     let longest = content[before..after].lines().map(str::len).max().unwrap_or(0);
     if longest <= LONG {
         return (name.to_owned(), content, 0);

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::tables::{
-    About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamModel, Check, Film, FilmClosures, FilmFlow, Fluid, Grains,
-    Grid, LaminarFlow, LogLawModel, OuriemiModel, PlaneFlow, WallClosures, WallFlow,
+    About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamModel, Check, Film, FilmClosures, FilmFlow, Fluid,
+    Grains, Grid, LaminarFlow, LogLawModel, OuriemiModel, PlaneFlow, WallClosures, WallFlow,
 };
 
 macro_rules! scenes {
@@ -128,4 +128,3 @@ fn schema_of<T: JsonSchema>() -> Value {
     });
     settings.into_generator().into_root_schema_for::<T>().to_value()
 }
-

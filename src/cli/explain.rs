@@ -14,7 +14,8 @@ pub(super) struct Explain {
 impl Explain {
     pub(super) fn execute(self) -> Result<(), CliError> {
         let (_, problem) = self.case.load()?;
-        let mut text = format!("{}\n{} ({})\n\n{}", problem.title, problem.name, problem.model_name(), crate::equations(&problem));
+        let mut text =
+            format!("{}\n{} ({})\n\n{}", problem.title, problem.name, problem.model_name(), crate::equations(&problem));
         let laws = crate::laws(&problem);
         if !laws.is_empty() {
             text += "\nLaws\n";

@@ -38,12 +38,15 @@ impl List {
         }
         if wanted(What::Closures) {
             let standing = |s| if s == Standing::Validated { "" } else { "  (experimental)" };
-            let row = |i: &&crate::closures::Info| (format!("{}/{}", i.family, i.law), format!("{}{}", i.equation, standing(i.standing)));
+            let row = |i: &&crate::closures::Info| {
+                (format!("{}/{}", i.family, i.law), format!("{}{}", i.equation, standing(i.standing)))
+            };
             sections.push(("closures", CATALOGUE.iter().map(row).collect()));
         }
         if self.json {
             let object = |(title, rows): &(&str, Vec<(String, String)>)| {
-                let rows: Vec<Value> = rows.iter().map(|(name, about)| json!({ "name": name, "about": about })).collect();
+                let rows: Vec<Value> =
+                    rows.iter().map(|(name, about)| json!({ "name": name, "about": about })).collect();
                 ((*title).to_owned(), Value::from(rows))
             };
             return Ok(answer(&Value::Object(sections.iter().map(object).collect()))?);

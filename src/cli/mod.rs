@@ -128,7 +128,11 @@ pub fn execute() -> ExitCode {
         Err(error) => {
             // Help and version are errors of exit code 0.
             let code = error.exit_code();
-            return if error.print().is_err() { ExitCode::FAILURE } else { ExitCode::from(u8::try_from(code).unwrap_or(2)) };
+            return if error.print().is_err() {
+                ExitCode::FAILURE
+            } else {
+                ExitCode::from(u8::try_from(code).unwrap_or(2))
+            };
         }
     };
     let json = match &cli.verb {
@@ -174,7 +178,13 @@ impl CliError {
     fn exit_code(&self) -> u8 {
         match self {
             Self::Case(_) | Self::Usage { .. } => 2,
-            Self::Output(error) => if error.is_refusal() { 2 } else { 1 },
+            Self::Output(error) => {
+                if error.is_refusal() {
+                    2
+                } else {
+                    1
+                }
+            }
             Self::Failed(..) | Self::Red(_) => 3,
             Self::Stopped(_) => STOPPED as u8,
             Self::Io(_) => 1,

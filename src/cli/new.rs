@@ -32,7 +32,9 @@ impl New {
             return Err(CliError::Usage { code: "no-such-case", message, hint });
         };
         // The first line points an editor at the schema beside the shipped cases.
-        let content = content.split_once('\n').map_or(content, |(first, rest)| if first.starts_with("#:schema") { rest } else { content });
+        let content = content
+            .split_once('\n')
+            .map_or(content, |(first, rest)| if first.starts_with("#:schema") { rest } else { content });
         if self.file.as_os_str() == "-" {
             return Ok(say(content)?);
         }
@@ -41,12 +43,20 @@ impl New {
             let exists = error.kind() == ErrorKind::AlreadyExists;
             CliError::Usage {
                 code: if exists { "file-exists" } else { "unwritable" },
-                message: if exists { format!("{file} is there already") } else { format!("cannot write {file}: {error}") },
+                message: if exists {
+                    format!("{file} is there already")
+                } else {
+                    format!("cannot write {file}: {error}")
+                },
                 hint: if exists { "give another name, or --force to replace it" } else { "give another place" }.into(),
             }
         };
         let mut options = OpenOptions::new();
-        if self.force { options.create(true).truncate(true) } else { options.create_new(true) };
+        if self.force {
+            options.create(true).truncate(true)
+        } else {
+            options.create_new(true)
+        };
         options.write(true).open(&self.file).map_err(refused)?.write_all(content.as_bytes())?;
         Ok(say(&format!("wrote {file}; next: bedload run {file}\n"))?)
     }

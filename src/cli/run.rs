@@ -82,16 +82,18 @@ impl Run {
 fn closing(written: &Written, out: &str, case: &str) -> String {
     let Summary { results, balances, validity, cost, model, .. } = &written.summary;
     let mut lines = vec![format!("{}: {model}", written.summary.case)];
-    let mut line = |label: &str, text: String| lines.push(format!("  {label:<15} {text}"));
+    let mut line = |label: &str, text: String| lines.push(format!("  {label:<16} {text}"));
     let value = |q: &'static quantity::Quantity| results.get(q.name).map(|x| readable(x, q.unit));
     if let Some(rate) = value(&quantity::TRANSPORT_RATE) {
         let star = value(&quantity::TRANSPORT_RATE_DIMENSIONLESS).map(|x| format!("  (Q* = {x})"));
         line("transport rate", format!("{rate}{}  closed form, exact to round-off", star.unwrap_or_default()));
     }
     for group in HEADLINES {
-        let text: Vec<String> = group.iter().filter_map(|q| Some(format!("{} {}", q.symbol, value(q)?))).collect();
-        if !text.is_empty() {
-            line(group[0].title, text.join("   "));
+        let given: Vec<_> =
+            group.iter().filter_map(|q| Some((q.title, format!("{} {}", q.symbol, value(q)?)))).collect();
+        if let Some((title, _)) = given.first() {
+            let text: Vec<&str> = given.iter().map(|(_, text)| text.as_str()).collect();
+            line(title, text.join("   "));
         }
     }
     if !balances.is_empty() {

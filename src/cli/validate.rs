@@ -42,7 +42,9 @@ impl Validate {
         }
         let red = rows.iter().filter(|r| r.verdict == Verdict::Red).count();
         if self.json {
-            answer(&json!({ "status": if red == 0 { "done" } else { "failed" }, "red": red, "rows": rows.iter().map(object).collect::<Vec<_>>() }))?;
+            answer(
+                &json!({ "status": if red == 0 { "done" } else { "failed" }, "red": red, "rows": rows.iter().map(object).collect::<Vec<_>>() }),
+            )?;
             return if red == 0 { Ok(()) } else { Err(CliError::Quiet(3)) };
         }
         let mut text = String::new();
@@ -50,7 +52,11 @@ impl Validate {
             let found = row.found.as_ref().map_or_else(Clone::clone, |x| significant(*x, 7));
             let expected = significant(row.check.expect, 7);
             let name = format!("{} {}", row.case, row.quantity);
-            text += &format!("{:5} {name:<48} {found} (expected {expected} ± {:.0e})\n", row.verdict.word(), row.check.tolerance);
+            text += &format!(
+                "{:5} {name:<48} {found} (expected {expected} ± {:.0e})\n",
+                row.verdict.word(),
+                row.check.tolerance
+            );
         }
         let green = rows.iter().filter(|r| r.verdict == Verdict::Green).count();
         say(&(text + &format!("{green} pass, {red} fail, {} shown\n", rows.len() - green - red)))?;

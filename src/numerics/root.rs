@@ -23,12 +23,7 @@ const MOST: usize = 200;
 ///
 /// # Errors
 /// [`NoRoot`] if `f` has the same sign at both ends, or is not finite.
-pub fn brent(
-    mut f: impl FnMut(f64) -> f64,
-    a: f64,
-    b: f64,
-    mut see: impl FnMut(f64),
-) -> Result<f64, NoRoot> {
+pub fn brent(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, mut see: impl FnMut(f64)) -> Result<f64, NoRoot> {
     let mut eval = |x: f64| {
         let y = f(x);
         see(y);
@@ -36,7 +31,8 @@ pub fn brent(
     };
     let (mut a, mut b) = (a, b);
     let (mut fa, mut fb) = (eval(a), eval(b));
-    let fail = |a: f64, b: f64, residual: f64, evaluations| NoRoot { low: a.min(b), high: a.max(b), residual, evaluations };
+    let fail =
+        |a: f64, b: f64, residual: f64, evaluations| NoRoot { low: a.min(b), high: a.max(b), residual, evaluations };
     if fa == 0.0 {
         return Ok(a);
     }
@@ -67,7 +63,11 @@ pub fn brent(
                 let (q, r) = (fc / fa, fb / fa);
                 (s * (2.0 * middle * q * (q - r) - (b - c) * (r - 1.0)), (q - 1.0) * (r - 1.0) * (s - 1.0))
             };
-            if p > 0.0 { q = -q } else { p = -p }
+            if p > 0.0 {
+                q = -q
+            } else {
+                p = -p
+            }
             if 2.0 * p < (3.0 * middle * q - (tolerance * q).abs()).min((before * q).abs()) {
                 before = step;
                 step = p / q;
@@ -100,7 +100,11 @@ mod tests {
     fn known_roots() {
         let find = |f: fn(f64) -> f64, a, b| brent(f, a, b, |_| {}).unwrap();
         assert_relative_eq!(find(|x| x.cos() - x, 0.0, 1.0), 0.739_085_133_215_160_6, max_relative = 1e-15);
-        assert_relative_eq!(find(|x| 5.0 * x.powi(3) - 21.0 * x + 10.0, 0.0, 1.0), 0.507_269_464_3, max_relative = 1e-9);
+        assert_relative_eq!(
+            find(|x| 5.0 * x.powi(3) - 21.0 * x + 10.0, 0.0, 1.0),
+            0.507_269_464_3,
+            max_relative = 1e-9
+        );
         assert_relative_eq!(find(|x| x.powi(9), -1.0, 1.5), 0.0, epsilon = 1e-3);
         assert_eq!(find(|x| x - 3.0, 3.0, 5.0), 3.0);
         assert_eq!(find(|x| x - 5.0, 3.0, 5.0), 5.0);

@@ -23,8 +23,8 @@ pub enum OutputError {
         /// what is not ours
         entry: String,
     },
-    /// a run of another case
-    #[error("{} holds a run of another case, {case}", folder.display())]
+    /// a run of another case, or of this one with other values
+    #[error("{} holds a run of {case} with other values", folder.display())]
     OtherCase {
         /// the folder
         folder: PathBuf,
@@ -85,11 +85,15 @@ impl OutputError {
     pub fn hint(&self) -> Option<&'static str> {
         match self {
             Self::NotAFolder(_) | Self::Unwritable { .. } => Some("give another folder with --out"),
-            Self::Foreign { .. } => Some("give another folder with --out; --force does not replace what bedload did not write"),
+            Self::Foreign { .. } => {
+                Some("give another folder with --out; --force does not replace what bedload did not write")
+            }
             Self::OtherCase { .. } => Some("give another folder with --out, or --force to replace that run"),
             Self::Unfinished { .. } => Some("--resume to go on, --force to start again"),
             Self::NotARun { .. } => Some("give a folder that `bedload run` wrote"),
-            Self::Interrupted { .. } => Some("nothing that stood there before was touched; free some space and run again"),
+            Self::Interrupted { .. } => {
+                Some("nothing that stood there before was touched; free some space and run again")
+            }
         }
     }
 
@@ -221,7 +225,10 @@ impl Drop for Folder {
 ///
 /// # Errors
 /// [`OutputError::Interrupted`]; the file that stood there before stays.
-pub(super) fn write_whole(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
+pub(super) fn write_whole(
+    path: &Path,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), OutputError> {
     let partial = beside(path, "part");
     let written = fs::File::create(&partial).and_then(|file| {
         let mut writer = BufWriter::with_capacity(1 << 16, file);

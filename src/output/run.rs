@@ -1,7 +1,7 @@
 //! What a run writes: summary first (`running`) and last, the resolved case, tables, report, figures on demand.
 
 use std::fs;
-use std::io::{self, BufReader, Write};
+use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
 use serde_json::Map;

@@ -95,7 +95,8 @@ pub(super) fn ouriemi(scene: &Ouriemi, model: &str, faults: &mut Faults) -> Opti
         (Form::Mixed, Drag::None) => None,
         (Form::TwoFluid, Drag::CarmanKozeny(law)) => Some(law),
         (Form::Mixed, law) => {
-            let fault = mismatch("drag", law.info().law, format!("{model} in the mixed form"), vec![drag::none::INFO.law]);
+            let fault =
+                mismatch("drag", law.info().law, format!("{model} in the mixed form"), vec![drag::none::INFO.law]);
             faults.push(("closures.drag.law", fault));
             None
         }

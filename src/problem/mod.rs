@@ -48,14 +48,17 @@ impl Problem {
     pub fn new(case: &Case) -> Result<Self, CaseError> {
         let mut faults = Faults::new();
         let (model, cells) = match &case.scene {
-            Scene::Ouriemi(scene) => (bed::ouriemi(scene, case.model, &mut faults).map(Model::Ouriemi), scene.grid.cells),
+            Scene::Ouriemi(scene) => {
+                (bed::ouriemi(scene, case.model, &mut faults).map(Model::Ouriemi), scene.grid.cells)
+            }
             Scene::BinghamPlane(scene) => (others::bingham(scene).map(Model::BinghamPlane), scene.grid.cells),
             Scene::BagnoldFilm(scene) => {
                 (others::bagnold(scene, case.model, &mut faults).map(Model::BagnoldFilm), scene.grid.cells)
             }
             Scene::LogLaw(scene) => (others::log_law(scene, &mut faults).map(Model::LogLaw), scene.grid.cells),
         };
-        let mut faults: Vec<(String, Fault)> = faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();
+        let mut faults: Vec<(String, Fault)> =
+            faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();
         checks(case, &mut faults);
         match model {
             Some(model) if faults.is_empty() => Ok(Self {

@@ -123,5 +123,12 @@ pub(super) fn log_law(scene: &LogLaw, faults: &mut Faults) -> Option<RoughWall> 
         let fault = Fault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
         faults.push(("closures.wall.k_s", fault));
     }
-    Some(RoughWall { rho_f: fluid.density, eta: fluid.viscosity, h: flow.height, u_star: flow.u_star, mixing_length, wall })
+    Some(RoughWall {
+        rho_f: fluid.density,
+        eta: fluid.viscosity,
+        h: flow.height,
+        u_star: flow.u_star,
+        mixing_length,
+        wall,
+    })
 }

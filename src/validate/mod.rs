@@ -90,8 +90,13 @@ fn row(case: &str, check: &Check, outcome: &Result<Outcome, Failure>) -> Row {
         Err(failure) => Err(failure.to_string()),
         Ok(outcome) => find(check, outcome).ok_or_else(|| "not reported".to_owned()),
     };
-    let mut row =
-        Row { case: case.into(), quantity: check.quantity.clone(), check: check.clone(), found, verdict: Verdict::Shown };
+    let mut row = Row {
+        case: case.into(),
+        quantity: check.quantity.clone(),
+        check: check.clone(),
+        found,
+        verdict: Verdict::Shown,
+    };
     if check.kind != CheckKind::Finding {
         let inside = row.deviation().is_some_and(|deviation| deviation <= check.tolerance);
         row.verdict = if inside { Verdict::Green } else { Verdict::Red };
@@ -123,9 +128,16 @@ pub fn markdown(rows: &[Row]) -> String {
         let at = row.check.at.map_or_else(String::new, |z| format!(" at {} m", significant(z, 4)));
         let found = row.found.as_ref().map_or_else(Clone::clone, |x| significant(*x, 7));
         // Below a tenth of the tolerance the digits are round-off, which may differ from machine to machine.
-        let deviation = row.deviation().map_or_else(|| "-".into(), |d| {
-            if d <= 0.1 * row.check.tolerance { format!("< {:.0e}", 0.1 * row.check.tolerance) } else { significant(d, 2) }
-        });
+        let deviation = row.deviation().map_or_else(
+            || "-".into(),
+            |d| {
+                if d <= 0.1 * row.check.tolerance {
+                    format!("< {:.0e}", 0.1 * row.check.tolerance)
+                } else {
+                    significant(d, 2)
+                }
+            },
+        );
         let kind = match row.check.kind {
             CheckKind::Verification => "verification",
             CheckKind::Validation => "validation",

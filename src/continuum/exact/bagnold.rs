@@ -85,7 +85,11 @@ pub fn run(film: &GranularFilm, cells: usize, watch: &mut dyn Watch) -> Result<O
     let mut balances = Vec::new();
     if solution.discharge() > 0.0 {
         let friction = film.friction.mu(solution.inertial_number) / film.beta.tan() - 1.0;
-        balances.push(balance("momentum", friction, "friction at the inertial number against the tangent of the slope"));
+        balances.push(balance(
+            "momentum",
+            friction,
+            "friction at the inertial number against the tangent of the slope",
+        ));
         // In x = sqrt(H - z) the velocity is a cubic, which the rule integrates exactly enough.
         let top = film.h.sqrt();
         let integral = simpson(|x| 2.0 * x * solution.velocity(film.h - x * x), 0.0, top, 64);
@@ -181,7 +185,8 @@ mod tests {
         let film = film(24.0);
         let solution = Solution::new(&film).unwrap();
         let (h, z) = (40.0_f64, 25.0);
-        let scaled = 2.0 / 3.0 * solution.inertial_number * (0.6 * film.beta.cos()).sqrt() * (h.powf(1.5) - (h - z).powf(1.5));
+        let scaled =
+            2.0 / 3.0 * solution.inertial_number * (0.6 * film.beta.cos()).sqrt() * (h.powf(1.5) - (h - z).powf(1.5));
         assert_relative_eq!(solution.velocity(z * film.d), scaled * (9.81 * film.d).sqrt(), max_relative = 1e-13);
     }
 

@@ -116,7 +116,8 @@ pub fn run(plane: &BinghamPlane, cells: usize, watch: &mut dyn Watch) -> Result<
     let profile = tabulate(centres(&faces), &columns, watch)?;
     let mut balances = vec![];
     if edge > 0.0 {
-        let integral = 2.0 * simpson(|z| solution.velocity(z), 0.0, edge, 8) + 2.0 * solution.half_plug * solution.velocity(edge);
+        let integral =
+            2.0 * simpson(|z| solution.velocity(z), 0.0, edge, 8) + 2.0 * solution.half_plug * solution.velocity(edge);
         let how = "Simpson integral of the velocity against the closed form of the mean";
         balances.push(balance("discharge", integral / (solution.mean() * plane.h) - 1.0, how));
     }
@@ -148,7 +149,11 @@ pub fn equations(plane: &BinghamPlane) -> String {
     let drive = match plane.drive {
         BinghamDrive::PressureGradient(gradient) => format!("G = -dp/dx = {} Pa/m", n(gradient)),
         BinghamDrive::MeanVelocity(mean) => {
-            format!("G such that the mean velocity is {} m/s: Bn = τ_0 H/(η U_m) = {}", n(mean), n(plane.tau_0 * plane.h / (plane.eta * mean)))
+            format!(
+                "G such that the mean velocity is {} m/s: Bn = τ_0 H/(η U_m) = {}",
+                n(mean),
+                n(plane.tau_0 * plane.h / (plane.eta * mean))
+            )
         }
     };
     format!(

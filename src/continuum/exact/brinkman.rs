@@ -43,8 +43,7 @@ impl Brinkman {
     /// Integral of U from z to h.
     pub fn integral_above(&self, z: f64) -> f64 {
         let bottom = 1.0 / (self.h / self.length).sinh();
-        self.seepage * (self.h - z)
-            + (self.top - self.seepage) * self.length * (self.cosh(self.h) - self.cosh(z))
+        self.seepage * (self.h - z) + (self.top - self.seepage) * self.length * (self.cosh(self.h) - self.cosh(z))
             - self.seepage * self.length * (self.cosh(self.h - z) - bottom)
     }
 }

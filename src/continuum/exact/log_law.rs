@@ -68,8 +68,16 @@ pub fn run(wall: &RoughWall, cells: usize, watch: &mut dyn Watch) -> Result<Outc
     // dz = z d(ln z)
     let integral = simpson(|x| x.exp() * solution.velocity(x.exp()), solution.z_0.ln(), wall.h.ln(), 400);
     let balances = vec![
-        balance("momentum", stress / tau - 1.0, "Reynolds stress of the velocity gradient against the stress at the wall"),
-        balance("discharge", integral / solution.discharge() - 1.0, "Simpson integral of the velocity against the closed form"),
+        balance(
+            "momentum",
+            stress / tau - 1.0,
+            "Reynolds stress of the velocity gradient against the stress at the wall",
+        ),
+        balance(
+            "discharge",
+            integral / solution.discharge() - 1.0,
+            "Simpson integral of the velocity against the closed form",
+        ),
     ];
     let mut results = Results::default();
     results.set(&q::U_STAR, wall.u_star);

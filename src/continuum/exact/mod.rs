@@ -11,7 +11,8 @@ use std::ops::ControlFlow;
 use crate::closures::{Info, Range};
 use crate::numerics::root::NoRoot;
 use crate::result::{
-    Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch, quantity,
+    Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch,
+    quantity,
 };
 
 /// Levels between two looks at the watch.
@@ -42,7 +43,13 @@ fn tabulate(z: Vec<f64>, columns: &[Column<'_>], watch: &mut dyn Watch) -> Resul
 }
 
 /// The outcome of a closed form; stopped if there is no profile.
-fn outcome(profile: Option<Profile>, history: Vec<f64>, results: Results, balances: Vec<Balance>, validity: Vec<Validity>) -> Result<Outcome, Failure> {
+fn outcome(
+    profile: Option<Profile>,
+    history: Vec<f64>,
+    results: Results,
+    balances: Vec<Balance>,
+    validity: Vec<Validity>,
+) -> Result<Outcome, Failure> {
     let series = if history.is_empty() { None } else { Some(residuals(history)?) };
     let status = if profile.is_some() { Status::Done } else { Status::Stopped };
     Ok(Outcome { status, profile, series, results, balances, validity })
@@ -75,5 +82,11 @@ fn closure_name(info: &Info) -> String {
 }
 
 fn no_root(equation: &'static str) -> impl Fn(NoRoot) -> SolveError {
-    move |NoRoot { low, high, residual, evaluations }| SolveError::NoRoot { equation, iterations: evaluations, residual, low, high }
+    move |NoRoot { low, high, residual, evaluations }| SolveError::NoRoot {
+        equation,
+        iterations: evaluations,
+        residual,
+        low,
+        high,
+    }
 }

@@ -105,7 +105,11 @@ impl Scaled {
     fn mixed(self) -> Result<Solution, SolveError> {
         let y = self.mixed_depth();
         if y >= self.h_p {
-            return Err(SolveError::WholeBedMoves { mobile_depth_m: y, bed_m: self.h_p, limit_pa_m: self.largest_drive() });
+            return Err(SolveError::WholeBedMoves {
+                mobile_depth_m: y,
+                bed_m: self.h_p,
+                limit_pa_m: self.largest_drive(),
+            });
         }
         let b = (self.hold - self.f) / self.e;
         Ok(Solution {
@@ -150,7 +154,8 @@ impl Scaled {
         }
         // The slope of a thin static layer grows without bound, so the residual is positive near the bottom.
         let low = 1e-12 * h_p;
-        let h_c = brent(residual, low, h_p, &mut see).map_err(no_root("no slip at the upper wall, for the yield level"))?;
+        let h_c =
+            brent(residual, low, h_p, &mut see).map_err(no_root("no slip at the upper wall, for the yield level"))?;
         let rest = layer(h_c, slip);
         let (s, y) = (rest.slope(h_c), h_p - h_c);
         Ok(Solution {

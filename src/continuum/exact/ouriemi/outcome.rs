@@ -55,9 +55,15 @@ fn columns<'a>(solution: &'a Solution, bed: &'a LaminarBed) -> Vec<Column<'a>> {
         (&q::U_FLUID, Box::new(move |z| Some(fluid(z)))),
         (&q::U_PARTICLE, Box::new(move |z| grains(velocity * solution.particle(z / h), z))),
         (&q::U_MIXTURE, Box::new(move |z| Some(velocity * solution.mixture(z / h)))),
-        (&q::FLUX, Box::new(move |z| Some(if in_bed(z) { bed.phi * velocity * solution.particle(z / h) } else { 0.0 }))),
+        (
+            &q::FLUX,
+            Box::new(move |z| Some(if in_bed(z) { bed.phi * velocity * solution.particle(z / h) } else { 0.0 })),
+        ),
         (&q::TAU_VISCOUS, Box::new(move |z| Some(stress * solution.fluid_stress(z / h)))),
-        (&q::TAU_PARTICLE, Box::new(move |z| Some(if in_bed(z) { stress * solution.particle_stress(z / h) } else { 0.0 }))),
+        (
+            &q::TAU_PARTICLE,
+            Box::new(move |z| Some(if in_bed(z) { stress * solution.particle_stress(z / h) } else { 0.0 })),
+        ),
         (&q::P_PARTICLE, Box::new(move |z| Some(if in_bed(z) { pressure(z) } else { 0.0 }))),
         (&q::SHEAR_RATE, Box::new(move |z| grains(velocity / h * solution.shear_rate(z / h), z))),
     ];
@@ -120,7 +126,8 @@ fn results(solution: &Solution, bed: &LaminarBed) -> Results {
 fn balances(solution: &Solution) -> Vec<Balance> {
     let Scaled { f, h_p, .. } = solution.scaled;
     let walls = solution.fluid_stress(0.0) + solution.particle_stress(0.0) - solution.fluid_stress(1.0);
-    let mut balances = vec![balance("momentum", walls / f - 1.0, "stress at the two walls against the drive over the height")];
+    let mut balances =
+        vec![balance("momentum", walls / f - 1.0, "stress at the two walls against the drive over the height")];
     if solution.moves() {
         let integral = simpson(|z| solution.particle(z), solution.h_c, h_p, 8);
         let how = "Simpson integral of the grain velocity against the closed form";
