@@ -37,6 +37,9 @@ const FRAME_HEIGHT: f64 = 300.0;
 const PANEL_GAP: f64 = 20.0;
 const BELOW: f64 = 46.0;
 const EDGE: f64 = 10.0;
+/// Room for half of the last number of an axis.
+const RIGHT: f64 = 20.0;
+/// Room for the letter of a panel.
 const LETTER: f64 = 26.0;
 
 type Rectangle = (f64, f64, f64, f64);
@@ -63,7 +66,7 @@ impl Layout {
             .iter()
             .filter(|l| inside(&l.y))
             .map(|l| width(&l.label, SMALL))
-            .try_fold(EDGE, |w, x| x.map(|x| w.max(x + 8.0 + EDGE / 2.0)))?;
+            .try_fold(RIGHT, |w, x| x.map(|x| w.max(x + 8.0 + EDGE / 2.0)))?;
         let frame_width = (full_width - left - right - PANEL_GAP * (count - 1) as f64) / count as f64;
         let mut frames = Vec::new();
         let (mut header, mut homeless) = (letters, Vec::new());

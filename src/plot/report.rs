@@ -49,14 +49,19 @@ pub fn report_html(page: &Page<'_>) -> String {
         Status::Failed => ("failed", "bad"),
         Status::Stopped => ("stopped by the user", "warn"),
     };
+    let doubts = match summary.validity.len() {
+        0 => String::new(),
+        1 => " <a class=\"badge warn\" href=\"#validity\">1 closure outside its range</a>".to_owned(),
+        n => format!(" <a class=\"badge warn\" href=\"#validity\">{n} closures outside their range</a>"),
+    };
     html += &format!(
-        "<header><h1>{case}</h1><p class=\"sub\">{} <span class=\"badge {class}\">{word}</span></p></header>\n",
+        "<header><h1>{case}</h1><p class=\"sub\">{} <span class=\"badge {class}\">{word}</span>{doubts}</p></header>\n",
         escape(&summary.model)
     );
-    html += &error(summary);
-    html += &validity(summary);
+    html += &error(summary, !page.figures.is_empty());
     html += &results(summary);
     html += &balances(summary);
+    html += &validity(summary);
     html += &figures(page.figures);
     for note in page.notes {
         html += &format!("<p class=\"note\">{}</p>\n", escape(note));
@@ -75,8 +80,8 @@ pub fn report_html(page: &Page<'_>) -> String {
     html
 }
 
-/// What went wrong, before everything else.
-fn error(summary: &Summary) -> String {
+/// What went wrong, before everything else, and whether a state was drawn nevertheless.
+fn error(summary: &Summary, drawn: bool) -> String {
     let Some(error) = &summary.error else { return String::new() };
     let mut html = format!(
         "<section class=\"alert bad\" role=\"alert\"><h2><code>{}</code></h2><p>{}</p>",
@@ -90,7 +95,10 @@ fn error(summary: &Summary) -> String {
             html += &format!("<p><b>{name}:</b> {}</p>", escape(text));
         }
     }
-    html + "<p>What follows is the last good state, where there is one.</p></section>\n"
+    if drawn {
+        html += "<p>What follows is the last good state.</p>";
+    }
+    html + "</section>\n"
 }
 
 /// Closures outside their range.
@@ -99,7 +107,7 @@ fn validity(summary: &Summary) -> String {
         return String::new();
     }
     let mut html = String::from(
-        "<section class=\"alert warn\"><h2>Used outside the published range</h2><div class=\"wide\"><table><thead><tr>\
+        "<section class=\"alert warn\" id=\"validity\"><h2>Used outside the published range</h2><div class=\"wide\"><table><thead><tr>\
          <th>closure</th><th>variable</th><th class=\"num\">furthest value</th><th>range</th><th class=\"num\">at z</th>\
          </tr></thead><tbody>",
     );
@@ -200,7 +208,7 @@ fn origin(summary: &Summary) -> String {
     let mut costs = vec![
         ("solver".to_owned(), duration(cost.solve_s)),
         ("everything".to_owned(), duration(cost.total_s)),
-        ("work".to_owned(), format!("{} units", cost.work_units)),
+        ("units of work".to_owned(), cost.work_units.to_string()),
     ];
     if let Some(memory) = cost.peak_memory_mb {
         costs.push(("peak memory".to_owned(), format!("{memory:.1} MB")));
@@ -264,7 +272,7 @@ fn subscripts(symbol: &str) -> String {
             html.push_str("<sub>");
             below = true;
         } else {
-            html.push_str(&escape(&c.to_string()));
+            html.push_str(&escape(&if c == '-' { '−' } else { c }.to_string()));
         }
     }
     html + if below { "</sub>" } else { "" }
@@ -281,6 +289,7 @@ mod tests {
         assert_eq!(typeset("-0.25"), "−0.25");
         assert_eq!(subscripts("q_p/φ"), "q<sub>p</sub>/φ");
         assert_eq!(subscripts("u_*"), "u<sub>*</sub>");
+        assert_eq!(subscripts("U - u_p"), "U − u<sub>p</sub>");
         assert_eq!(subscripts("z(u_max)"), "z(u<sub>max</sub>)");
         assert_eq!(duration(2.1e-4), "210 µs");
     }
@@ -297,8 +306,16 @@ mod tests {
             case_toml: toml,
             notes: &[],
         });
-        let order =
-            ["Used outside", "<h2>Results", "<h2>Balances", "<figure", "Equations solved", "<h2>Cost", "<details"];
+        let order = [
+            "1 closure outside",
+            "<h2>Results",
+            "<h2>Balances",
+            "Used outside",
+            "<figure",
+            "Equations solved",
+            "<h2>Cost",
+            "<details",
+        ];
         let places: Vec<usize> = order.iter().map(|text| html.find(text).unwrap()).collect();
         assert!(places.is_sorted(), "{places:?}");
         assert!(html.contains("transport_rate_m2_s = 3.3103e-5") && html.contains("33.10&nbsp;mm²/s"));

@@ -13,6 +13,10 @@ use super::{Figure, PlotError, theme};
 /// Grid steps per unit of the figure.
 const GRID: f64 = 10.0;
 
+/// Smallest and largest magnification: text between 8 and 15 pixels.
+const SMALLEST: f64 = 0.72;
+const LARGEST: f64 = 1.15;
+
 /// Size over which plotters divides the size of a font when it writes it to SVG.
 const PLOTTERS_SIZE_OVER_EM: f64 = 1.24;
 
@@ -32,11 +36,12 @@ pub fn svg(figure: &Figure) -> Result<String, PlotError> {
         area.present().map_err(PlotError::drawing)?;
     }
     let mut out = format!(
-        "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" style=\"max-width:{:.0}px\" \
+        "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" style=\"min-width:{:.0}px;max-width:{:.0}px\" \
          role=\"img\" font-size=\"{:.0}\"><title>{}</title><style>{}</style>\n",
         size.0,
         size.1,
-        layout.size.0 * 1.15,
+        layout.size.0 * SMALLEST,
+        layout.size.0 * LARGEST,
         theme::SMALL * GRID,
         escape(&figure.caption),
         theme::rules(GRID),
@@ -102,4 +107,84 @@ pub(super) fn escape(text: &str) -> String {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Axis, Curve, Dash, Level, Marker, Panel, Scale, profile_figures, trials};
+    use super::*;
+
+    fn sound(drawing: &str) {
+        for word in ["NaN", "inf", "-2147483648", "2147483647", "5E\"", "<script"] {
+            assert!(!drawing.contains(word), "{word} in {drawing}");
+        }
+        assert_eq!(drawing.matches("<text").count(), drawing.matches("</text>").count());
+        assert!(drawing.starts_with("<svg") && drawing.trim_end().ends_with("</svg>"));
+    }
+
+    #[test]
+    fn a_figure_is_small_scales_with_its_page_and_takes_its_colours() {
+        let (profile, summary) = trials::laminar_bed();
+        let drawing = svg(&profile_figures(&profile, &summary)[0]).unwrap();
+        sound(&drawing);
+        assert!(drawing.len() < 30_000, "{}", drawing.len());
+        assert!(!drawing.contains(" width=\"7600\"") && drawing.contains("viewBox=\"0 0 7600 "));
+        assert!(drawing.contains("role=\"img\"") && drawing.contains("class=\"s-c2 d1\""));
+        assert!(drawing.contains(">velocity (mm/s)</text>") && drawing.contains(">bed level</text>"));
+        assert!(drawing.contains("<title>exact_1d_ouriemi: (a) velocity"));
+    }
+
+    #[test]
+    fn gaps_break_lines() {
+        let (profile, summary) = trials::laminar_bed();
+        let mut figure = profile_figures(&profile, &summary)[0].clone();
+        let curves = |figure: &Figure| svg(figure).unwrap().matches("class=\"s-c0\"").count();
+        let before = curves(&figure);
+        figure.panels[0].curves[0].points[50] = None;
+        figure.panels[0].curves[0].points[120] = Some((f64::NAN, 1.0));
+        assert_eq!(curves(&figure), before + 2);
+    }
+
+    #[test]
+    fn labels_of_users_stay_text() {
+        let mut figure = trials::convergence();
+        figure.caption = "</title><script>".into();
+        figure.levels = vec![Level { y: 1e-3, label: "<script>\"&'".into() }];
+        figure.panels[0].x.title = "<b class=\"#00005E\">".into();
+        let drawing = svg(&figure).unwrap();
+        assert!(!drawing.contains("<script") && !drawing.contains("<b "));
+        assert!(drawing.contains("&lt;script&gt;&quot;&amp;&apos;</text>"));
+    }
+
+    #[test]
+    fn whatever_the_numbers_there_is_a_figure() {
+        let series: [&[(f64, f64)]; 7] = [
+            &[],
+            &[(1.0, 1.0)],
+            &[(0.0, 0.0), (0.0, 0.0)],
+            &[(1e-300, 1e-310), (2e-300, 5e-324)],
+            &[(1e308, -1e308), (-1e308, 1e308)],
+            &[(f64::NAN, 1.0), (1.0, f64::INFINITY)],
+            &[(1e279, -1e279), (-1e279, 1e279), (0.0, 1.0)],
+        ];
+        for points in series {
+            for scale in [Scale::Linear, Scale::Log] {
+                let curve = Curve {
+                    name: "curve".into(),
+                    points: points.iter().copied().map(Some).collect(),
+                    colour: 9,
+                    line: Some(Dash::DashDotted),
+                    marker: Some(Marker::Square),
+                };
+                let axis = Axis { scale, ..Axis::linear("x", "m") };
+                let panel = Panel { x: axis.clone(), curves: vec![curve] };
+                let mut figure = trials::convergence();
+                figure.y = axis;
+                figure.panels = vec![panel.clone(), panel];
+                sound(&svg(&figure).unwrap());
+                figure.panels.clear();
+                sound(&svg(&figure).unwrap());
+            }
+        }
+    }
 }

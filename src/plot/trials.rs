@@ -2,6 +2,7 @@
 
 use serde_json::json;
 
+use super::{Axis, Curve, Dash, Figure, Marker, Panel};
 use crate::result::quantity as q;
 use crate::result::{Balance, Cost, ErrorReport, Profile, Provenance, Results, Status, Summary, Validity};
 
@@ -197,6 +198,30 @@ pub(super) fn hostile_failure() -> Summary {
     summary
 }
 
+/// Errors against cell counts, with symbols and a line of reference, as a study of convergence shows them.
+pub(super) fn convergence() -> Figure {
+    let cells = [25.0, 50.0, 100.0, 200.0, 400.0, 800.0_f64];
+    let errors =
+        |at: f64, order: i32| -> Vec<_> { cells.iter().map(|n| Some((*n, at * (25.0 / n).powi(order)))).collect() };
+    let curve = |name: &str, points, colour, line, marker| Curve { name: name.into(), points, colour, line, marker };
+    Figure {
+        stem: "convergence".into(),
+        caption: "Error against the number of cells".into(),
+        y: Axis::log("relative error", "1"),
+        panels: vec![Panel {
+            x: Axis::log("cells", ""),
+            curves: vec![
+                curve("second order", errors(0.02, 2), 0, Some(Dash::Dotted), None),
+                curve("exact yield", errors(0.011, 2), 1, None, Some(Marker::Circle)),
+                curve("λ = 10⁻⁶", errors(0.05, 1), 2, Some(Dash::Dashed), Some(Marker::Square)),
+                curve("paper", errors(0.09, 1), 3, None, Some(Marker::Triangle)),
+            ],
+        }],
+        levels: vec![],
+        tint_below: None,
+    }
+}
+
 /// Writes all trials as SVG and PNG where `BEDLOAD_TRIALS` points, to be looked at.
 #[test]
 #[ignore = "draws files to be looked at"]
@@ -212,8 +237,11 @@ fn draw_the_trials() {
         let notes = ["Grains and fluid move together in the mixed form, so it has no threshold of motion.".to_owned()];
         let case_toml = "format = 1\n\n[case]\nname = \"ouriemi\"";
         let page = crate::plot::Page { summary: &summary, figures: &figures, equations, case_toml, notes: &notes };
-        std::fs::write(folder.join(format!("{name}.html")), crate::plot::report_html(&page)).unwrap();
-        for figure in figures {
+        let begin = std::time::Instant::now();
+        let html = crate::plot::report_html(&page);
+        println!("{name}: page {:?}, {} bytes", begin.elapsed(), html.len());
+        std::fs::write(folder.join(format!("{name}.html")), html).unwrap();
+        for figure in figures.into_iter().chain([convergence()]) {
             let stem = format!("{name}_{}", figure.stem);
             let begin = std::time::Instant::now();
             let drawing = crate::plot::svg(&figure).unwrap();
