@@ -269,7 +269,7 @@ pub struct WallClosures {
 /// The levels at which the profile is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grid {
-    /// Number of levels: centres of cells whose faces lie on the walls, the yield level and the bed level.
+    /// Number of cells: the profile is given at their centres and at the walls; their faces lie on the yield and bed levels.
     #[serde(default = "cells")]
     #[schemars(extend("minimum" = 10, "maximum" = 1_000_000))]
     pub cells: usize,

@@ -19,6 +19,13 @@ pub fn centres(faces: &[f64]) -> Vec<f64> {
     faces.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect()
 }
 
+/// The first face, the centres of the cells, the last face.
+#[must_use]
+pub fn between_walls(faces: &[f64]) -> Vec<f64> {
+    let (first, last) = (faces.first().copied(), faces.last().copied());
+    first.into_iter().chain(centres(faces)).chain(last).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -34,5 +41,6 @@ mod tests {
         assert!(faces.windows(3).all(|f| f[1] > f[0] && f[2] - f[1] <= f[1] - f[0]));
         assert_relative_eq!(graded(0.0, 2.0, 4, 1.0)[1], 0.5);
         assert_eq!(centres(&[0.0, 1.0, 3.0]), [0.5, 2.0]);
+        assert_eq!(between_walls(&[0.0, 1.0, 3.0]), [0.0, 0.5, 2.0, 3.0]);
     }
 }

@@ -136,7 +136,12 @@ impl<'a> Scene<'a> {
             .into_iter()
             .filter_map(|(name, q, pen)| Some(Line { name, pen, quantity: Some(q), values: self.column(q)?.to_vec() }))
             .collect();
-        self.panel("velocity", "m/s", distinct(present))
+        let mut lines = distinct(present);
+        // The mixture lies between the two phases: where both are drawn it says nothing new.
+        if lines.len() == candidates.len() {
+            lines.remove(0);
+        }
+        self.panel("velocity", "m/s", lines)
     }
 
     fn stresses(&self) -> Option<Panel> {
@@ -305,7 +310,7 @@ mod tests {
         assert_eq!(figures.len(), 1);
         assert_eq!(names(&figures[0].panels[0]), ["mixture"]);
         let (profile, summary) = trials::two_fluid_bed();
-        assert_eq!(names(&profile_figures(&profile, &summary)[0].panels[0]), ["mixture", "fluid", "grains"]);
+        assert_eq!(names(&profile_figures(&profile, &summary)[0].panels[0]), ["fluid", "grains"]);
     }
 
     #[test]
@@ -343,7 +348,7 @@ mod tests {
     fn what_is_undefined_breaks_the_line_and_the_total() {
         let (profile, summary) = trials::two_fluid_bed();
         let figure = &profile_figures(&profile, &summary)[0];
-        let grains = &figure.panels[0].curves[2];
+        let grains = &figure.panels[0].curves[1];
         assert!(grains.points.last().unwrap().is_none());
         assert!(grains.points.first().unwrap().is_some());
         let mut profile = Profile::new(vec![0.5, 1.5]).unwrap();

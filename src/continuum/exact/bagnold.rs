@@ -14,7 +14,7 @@
 
 use super::{Column, balance, closure_name, outcome, outside, tabulate};
 use crate::closures::friction::mu_i;
-use crate::numerics::levels::{centres, graded};
+use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
 use crate::problem::GranularFilm;
 use crate::result::{Failure, Outcome, Results, SolveError, Validity, Watch, quantity as q};
@@ -81,7 +81,7 @@ pub fn run(film: &GranularFilm, cells: usize, watch: &mut dyn Watch) -> Result<O
         (&q::SHEAR_RATE, Box::new(|z| Some(solution.shear_rate(z)))),
         (&q::INERTIAL_NUMBER, Box::new(|_| Some(solution.inertial_number))),
     ];
-    let profile = tabulate(centres(&graded(0.0, film.h, cells, f64::INFINITY)), &columns, watch)?;
+    let profile = tabulate(between_walls(&graded(0.0, film.h, cells, f64::INFINITY)), &columns, watch)?;
     let mut balances = Vec::new();
     if solution.discharge() > 0.0 {
         let friction = film.friction.mu(solution.inertial_number) / film.beta.tan() - 1.0;

@@ -12,7 +12,7 @@
 //! Nothing moves for x >= 1. Source: Guyon, Hulin & Petit (2001), Hydrodynamique physique; Chauchat & Medale (2010), sec. 3.1.
 
 use super::{Column, balance, no_root, outcome, tabulate};
-use crate::numerics::levels::{centres, graded};
+use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
 use crate::numerics::root::brent;
 use crate::problem::{BinghamDrive, BinghamPlane};
@@ -113,7 +113,7 @@ pub fn run(plane: &BinghamPlane, cells: usize, watch: &mut dyn Watch) -> Result<
         ),
         (&q::SHEAR_RATE, Box::new(|z| Some(solution.shear_rate(z)))),
     ];
-    let profile = tabulate(centres(&faces), &columns, watch)?;
+    let profile = tabulate(between_walls(&faces), &columns, watch)?;
     let mut balances = vec![];
     if edge > 0.0 {
         let integral =

@@ -46,14 +46,16 @@ impl Solution {
     }
 }
 
-/// Evaluates the closed form on `cells` levels, evenly spaced in the logarithm of z.
+/// Evaluates the closed form from the roughness length to the flow height, on levels evenly spaced in the logarithm of z.
 ///
 /// # Errors
 /// [`Failure`] if a value is not finite.
 pub fn run(wall: &RoughWall, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let solution = Solution::new(wall);
     let span = (wall.h / solution.z_0).ln();
-    let levels = (0..cells).map(|i| solution.z_0 * (span * (i as f64 + 0.5) / cells as f64).exp()).collect();
+    let levels = (0..=cells)
+        .map(|i| if i == cells { wall.h } else { solution.z_0 * (span * i as f64 / cells as f64).exp() })
+        .collect();
     let tau = wall.rho_f * wall.u_star * wall.u_star;
     let length = |z: f64| wall.mixing_length.length(z);
     let columns: Vec<Column<'_>> = vec![

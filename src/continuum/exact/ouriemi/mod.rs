@@ -193,8 +193,9 @@ impl Solution {
     #[must_use]
     pub fn mixture(&self, z: f64) -> f64 {
         if z > self.scaled.h_p {
-            let x = z - self.scaled.h_p;
-            self.u_interface + self.tau_interface * x - 0.5 * self.scaled.f * x * x
+            // As a product, so that it vanishes at the wall to the last bit.
+            let Scaled { f, h_p, .. } = self.scaled;
+            (1.0 - z) * (self.u_interface / (1.0 - h_p) + 0.5 * f * (z - h_p))
         } else if z > self.h_c {
             self.slip() + self.particle(z)
         } else {

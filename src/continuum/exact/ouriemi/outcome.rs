@@ -4,7 +4,7 @@ use super::{Scaled, Solution, solve};
 use crate::closures::drag::carman_kozeny;
 use crate::closures::{Range, mixture_viscosity::MixtureViscosity};
 use crate::continuum::exact::{Column, balance, closure_name, outcome, outside, tabulate};
-use crate::numerics::levels::{centres, graded};
+use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
 use crate::problem::{Drive, LaminarBed};
 use crate::result::{Balance, Failure, Outcome, Results, Validity, Watch, quantity as q};
@@ -24,21 +24,22 @@ pub fn run(bed: &LaminarBed, cells: usize, watch: &mut dyn Watch) -> Result<Outc
     outcome(profile, history, results(&solution, bed), balances(&solution), validity(&solution, bed))
 }
 
-/// Cell centres [m], with faces on the walls, the yield level and the bed level; fine in the seepage under the yield level.
+/// The walls and the centres of cells [m] whose faces lie on the yield level and the bed level, so that no level lies on a
+/// jump; fine where the seepage of the two-fluid form meets the wall and the yield level.
 fn levels(solution: &Solution, bed: &LaminarBed, cells: usize) -> Vec<f64> {
     let Scaled { h_p, k, e, .. } = solution.scaled;
     let finest = k.map_or(f64::INFINITY, |k| 0.25 * (k * e).sqrt());
-    let quarter = (cells / 4).max(2);
-    let mobile = if solution.moves() { quarter } else { 0 };
-    let still = if solution.moves() { quarter } else { 2 * quarter };
-    let mut faces = graded(0.0, solution.h_c, still, finest);
-    faces.pop();
+    let mobile = if solution.moves() { cells / 4 } else { 0 };
+    let still = cells / 2 - mobile;
+    let (wall, middle) = (still / 2, 0.5 * solution.h_c);
+    let mut faces: Vec<f64> = graded(0.0, middle, wall, finest).into_iter().rev().map(|z| middle - z).collect();
+    let mut extend = |a: f64, b: f64, n: usize, finest: f64| faces.extend(graded(a, b, n, finest).into_iter().skip(1));
+    extend(middle, solution.h_c, still - wall, finest);
     if mobile > 0 {
-        faces.extend(graded(solution.h_c, h_p, mobile, f64::INFINITY));
-        faces.pop();
+        extend(solution.h_c, h_p, mobile, f64::INFINITY);
     }
-    faces.extend(graded(h_p, 1.0, cells - still - mobile, f64::INFINITY));
-    centres(&faces).into_iter().map(|z| z * bed.h).collect()
+    extend(h_p, 1.0, cells - still - mobile, f64::INFINITY);
+    between_walls(&faces).into_iter().map(|z| z * bed.h).collect()
 }
 
 fn columns<'a>(solution: &'a Solution, bed: &'a LaminarBed) -> Vec<Column<'a>> {
@@ -165,8 +166,8 @@ pub fn equations(bed: &LaminarBed) -> String {
         Drive::Shields(theta) => format!("f such that the Shields number is {}", n(theta)),
     };
     let mut text = format!(
-        "Newtonian fluid over a Coulomb bed between two planes, {form} form.\n\
-         Units: length H = {h} m, stress (ρ_p - ρ_f) g H = {stress} Pa, velocity (ρ_p - ρ_f) g H²/η = {velocity} m/s\n\n\
+        "Newtonian fluid over a Coulomb bed between two planes, {form} form.\n\n\
+         units              H = {h} m,  (ρ_p - ρ_f) g H = {stress} Pa,  (ρ_p - ρ_f) g H²/η = {velocity} m/s\n\
          drive              {drive}\n\
          particle pressure  P_p = φ (h_p - z),  φ = {phi},  h_p = {h_p}\n\
          friction           τ_p = μ_s P_p where the grains shear,  μ_s φ = {hold}\n\
