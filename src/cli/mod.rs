@@ -86,8 +86,8 @@ enum CliError {
     Failed(ErrorReport, Option<Value>),
     /// some rows of a validation are red: 3
     Red(usize),
-    /// stopped by the user: 4. The answer for `--json`
-    Stopped(Value),
+    /// stopped by the user: 4. The answer for `--json`, and whether the folder keeps an earlier run
+    Stopped(Value, bool),
     /// an argument that clap cannot judge: 2
     Usage { code: &'static str, message: String, hint: String },
     /// standard output or a file: 1
@@ -186,7 +186,7 @@ impl CliError {
                 }
             }
             Self::Failed(..) | Self::Red(_) => 3,
-            Self::Stopped(_) => STOPPED as u8,
+            Self::Stopped(..) => STOPPED as u8,
             Self::Io(_) => 1,
             Self::Quiet(code) => *code,
         }
@@ -206,7 +206,7 @@ impl CliError {
             Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
             Self::Failed(error, summary) => summary.unwrap_or_else(|| json!({ "status": "failed", "error": error })),
             Self::Red(rows) => one("red-rows", format!("{rows} rows are red"), None),
-            Self::Stopped(summary) => summary,
+            Self::Stopped(summary, _) => summary,
             Self::Usage { code, message, hint } => one(code, message, Some(hint)),
             Self::Io(error) => one("io", error.to_string(), None),
             Self::Quiet(_) => Value::Null,
@@ -230,7 +230,12 @@ impl CliError {
                 }
             }
             Self::Red(rows) => writeln!(to, "{rows} rows are red")?,
-            Self::Stopped(_) => writeln!(to, "stopped")?,
+            Self::Stopped(_, kept) => {
+                writeln!(to, "stopped")?;
+                if kept {
+                    writeln!(to, "  the finished run that the folder held is still there")?;
+                }
+            }
             Self::Usage { message, hint, .. } => writeln!(to, "error: {message}\n  {hint}")?,
             Self::Io(error) => writeln!(to, "error: {error}")?,
             Self::Quiet(_) => {}

@@ -70,7 +70,7 @@ impl Run {
         }
         match (written.summary.status, &written.summary.error) {
             (Status::Failed, Some(error)) => Err(CliError::Failed(error.clone(), Some(value))),
-            (Status::Stopped, _) => Err(CliError::Stopped(value)),
+            (Status::Stopped, _) => Err(CliError::Stopped(value, written.kept)),
             _ if self.json => Ok(answer(&value)?),
             _ if self.quiet => Ok(()),
             _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.case))?),
