@@ -17,7 +17,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 use serde_json::{Value, json};
 
-use crate::case::{Case, CaseError};
+use crate::case::{Case, CaseError, printable};
 use crate::output::OutputError;
 use crate::problem::Problem;
 use crate::result::ErrorReport;
@@ -69,9 +69,7 @@ struct CaseArgs {
 
 impl CaseArgs {
     fn load(&self) -> Result<(Case, Problem), CliError> {
-        let case = Case::load(&self.case, &self.overrides)?;
-        let problem = Problem::new(&case)?;
-        Ok((case, problem))
+        Ok(Problem::load(&self.case, &self.overrides)?)
     }
 }
 
@@ -215,32 +213,20 @@ impl CliError {
 
     fn explain(self) -> io::Result<()> {
         let mut to = io::stderr().lock();
-        match self {
-            Self::Case(error) => write!(to, "{}", error.render(colour()))?,
-            Self::Output(error) => {
-                writeln!(to, "error: {error}")?;
-                if let Some(hint) = error.hint() {
-                    writeln!(to, "  {hint}")?;
-                }
-            }
-            Self::Failed(error, _) => {
-                writeln!(to, "failed: {}", error.message)?;
-                if let Some(hint) = error.hint {
-                    writeln!(to, "  {hint}")?;
-                }
-            }
-            Self::Red(rows) => writeln!(to, "{rows} rows are red")?,
+        let (message, hint) = match self {
+            Self::Case(error) => return write!(to, "{}", error.render(colour())),
+            Self::Output(error) => (format!("error: {error}"), error.hint().map(str::to_owned)),
+            Self::Failed(error, _) => (format!("failed: {}", error.message), error.hint),
+            Self::Red(rows) => (format!("{rows} rows are red"), None),
             Self::Stopped(_, kept) => {
-                writeln!(to, "stopped")?;
-                if kept {
-                    writeln!(to, "  the finished run that the folder held is still there")?;
-                }
+                ("stopped".into(), kept.then(|| "the finished run that the folder held is still there".into()))
             }
-            Self::Usage { message, hint, .. } => writeln!(to, "error: {message}\n  {hint}")?,
-            Self::Io(error) => writeln!(to, "error: {error}")?,
-            Self::Quiet(_) => {}
-        }
-        Ok(())
+            Self::Usage { message, hint, .. } => (format!("error: {message}"), Some(hint)),
+            Self::Io(error) => (format!("error: {error}"), None),
+            Self::Quiet(_) => return Ok(()),
+        };
+        let hint = hint.map(|hint| format!("  {hint}\n")).unwrap_or_default();
+        write!(to, "{}", printable(&format!("{message}\n{hint}")))
     }
 }
 
@@ -249,14 +235,16 @@ fn colour() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
 }
 
-/// Writes text to standard output.
+/// Writes text to standard output. Titles and names of files are not ours: they must not command the terminal.
 fn say(text: &str) -> io::Result<()> {
     let mut to = io::stdout().lock();
-    to.write_all(text.as_bytes())?;
+    to.write_all(printable(text).as_bytes())?;
     to.flush()
 }
 
 /// Writes one JSON object to standard output.
 fn answer(value: &Value) -> io::Result<()> {
-    say(&format!("{value:#}\n"))
+    // Control characters above 0x7e are legal in JSON as they are, and safer escaped.
+    let escaped = |c: char| if matches!(c, '\u{7f}'..='\u{9f}') { format!("\\u{:04x}", c as u32) } else { c.into() };
+    say(&format!("{value:#}\n").chars().map(escaped).collect::<String>())
 }
