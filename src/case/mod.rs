@@ -78,6 +78,12 @@ impl Case {
 }
 
 impl CaseError {
+    /// The text that a span of a violation points into.
+    #[must_use]
+    pub fn text(&self, span: &Span) -> &Text {
+        self.document.text(span)
+    }
+
     /// The case as far as it could be read, if every value that it needs could be: more may be wrong with it.
     #[must_use]
     pub fn draft(&self) -> Option<&Case> {
