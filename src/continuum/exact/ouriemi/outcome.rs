@@ -189,7 +189,8 @@ pub fn equations(bed: &LaminarBed) -> String {
              static bed   0 < z < h_c     e U'' + f - U/K = 0,  u_p = 0,  U(0) = 0\n\
              permeability K = (1 - φ)³ (d/H)²/(k_CK φ²) = {k},  Brinkman length sqrt(K e) = {l} d\n\
              yield level  h_c from K μ_s φ + s Y + B Y²/2 + e (s + B Y) D - f D²/2 = 0,\n\
-             \u{20}            s = U'(h_c) of the static layer,  Y = h_p - h_c,  D = 1 - h_p = {d},  B = (μ_s φ - f)/e\n\
+             \u{20}            s = U'(h_c) of the static layer,  Y = h_p - h_c,  D = 1 - h_p = {d},\n\
+             \u{20}            B = (μ_s φ - f)/e\n\
              flux         q_p = φ (s Y²/2 + B Y³/6);  no grain moves while U(h_p) < K μ_s φ\n",
             slip = n(k * hold),
             k = n(k),
