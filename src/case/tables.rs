@@ -155,7 +155,7 @@ pub struct WallFlow {
 /// The model: Ouriemi's bed in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OuriemiModel {
-    /// Closed forms.
+    /// What kind of model: this one is a closed form.
     pub kind: ExactKind,
     /// Newtonian fluid over a Coulomb bed between two planes.
     pub solution: OuriemiSolution,
@@ -166,7 +166,7 @@ pub struct OuriemiModel {
 /// The model: Bingham plane Poiseuille flow in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BinghamModel {
-    /// Closed forms.
+    /// What kind of model: this one is a closed form.
     pub kind: ExactKind,
     /// Bingham fluid between two planes.
     pub solution: BinghamSolution,
@@ -175,7 +175,7 @@ pub struct BinghamModel {
 /// The model: Bagnold's granular film in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BagnoldModel {
-    /// Closed forms.
+    /// What kind of model: this one is a closed form.
     pub kind: ExactKind,
     /// Dry grains down a slope.
     pub solution: BagnoldSolution,
@@ -184,7 +184,7 @@ pub struct BagnoldModel {
 /// The model: the logarithmic law.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LogLawModel {
-    /// Closed forms.
+    /// What kind of model: this one is a closed form.
     pub kind: ExactKind,
     /// Turbulent layer of constant stress over a rough wall.
     pub solution: LogLawSolution,
@@ -292,7 +292,7 @@ pub struct Check {
     pub at: Option<f64>,
     /// The expected value, in SI.
     pub expect: f64,
-    /// Largest accepted deviation relative to the expected value; absolute where that is 0.
+    /// Largest accepted deviation relative to the expected value, such as 1e-3 or "0.1 %"; absolute where that is 0.
     #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1e6))]
     pub tolerance: f64,
     /// What kind of agreement this is.

@@ -73,7 +73,7 @@ impl Run {
             (Status::Stopped, _) => Err(CliError::Stopped(value)),
             _ if self.json => Ok(answer(&value)?),
             _ if self.quiet => Ok(()),
-            _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.case))?),
+            _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.as_typed()))?),
         }
     }
 }

@@ -118,7 +118,7 @@ impl SolveError {
             }
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
-            Self::OutOfReach { .. } => "ask for less, or make the bed deeper".into(),
+            Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),
             Self::NoRoot { .. } | Self::NotFinite { .. } | Self::Inconsistent { .. } => {
                 "this should not happen for a checked case: please report it with case.toml".into()
             }

@@ -12,6 +12,8 @@ use crate::units::significant;
 
 /// A continuum layer is at least one grain thick.
 const THICKNESS: Range = Range { variable: "mobile_depth_m/d", min: 1.0, max: f64::INFINITY };
+/// A bed at rest under the moving grains, too.
+const REST: Range = Range { variable: "yield_level_m/d", min: 1.0, max: f64::INFINITY };
 
 /// Evaluates the closed form for `bed` on about `cells` levels.
 ///
@@ -117,7 +119,13 @@ fn results(solution: &Solution, bed: &LaminarBed) -> Results {
     if bed.drag.is_some() {
         results.set(&q::SLIP_VELOCITY, solution.slip() * velocity);
     }
-    results.set(&q::DRIVE, solution.scaled.f * stress / h);
+    results.set(
+        &q::DRIVE,
+        match bed.drive {
+            Drive::PressureGradient(given) => given,
+            Drive::Shields(_) => solution.scaled.f * stress / h,
+        },
+    );
     results.set(&q::DRIVE_DIMENSIONLESS, solution.scaled.f);
     results.set(&q::REYNOLDS, bed.rho_f * discharge / bed.eta);
     results.set(&q::REYNOLDS_PARTICLE, particle_reynolds(solution, bed));
@@ -151,6 +159,7 @@ fn validity(solution: &Solution, bed: &LaminarBed) -> Vec<Validity> {
         let grains = solution.mobile_depth() * bed.h / bed.d;
         found.extend(outside("continuum/mobile layer".into(), &THICKNESS, grains));
     }
+    found.extend(outside("continuum/static layer".into(), &REST, solution.h_c * bed.h / bed.d));
     found
 }
 
