@@ -1,3 +1,4 @@
 //! Continuum models of the flow and of the bed.
 
 pub mod exact;
+pub mod laminar;

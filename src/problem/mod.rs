@@ -2,9 +2,11 @@
 
 mod bed;
 mod others;
+mod regularisation;
 
 pub use bed::{Drive, LaminarBed};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RoughWall};
+pub use regularisation::{Regularisation, Smoothing};
 
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;

@@ -78,6 +78,14 @@ pub enum SolveError {
         /// upper end of the bracket
         high: f64,
     },
+    /// An iteration that does not reach round-off.
+    #[error("not converged: the relative residual is {residual:.3e} after {iterations} iterations")]
+    NotConverged {
+        /// relative residual
+        residual: f64,
+        /// iterations made
+        iterations: usize,
+    },
     /// A result that is not a finite number.
     #[error("{column} is not finite in row {row}")]
     NotFinite {
@@ -104,6 +112,7 @@ impl SolveError {
             Self::NoSteadyFilm { .. } => "no-steady-film",
             Self::OutOfReach { .. } => "out-of-reach",
             Self::NoRoot { .. } => "no-root",
+            Self::NotConverged { .. } => "not-converged",
             Self::NotFinite { .. } => "not-finite",
             Self::Inconsistent { .. } => "inconsistent",
         }
@@ -119,7 +128,7 @@ impl SolveError {
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
             Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),
-            Self::NoRoot { .. } | Self::NotFinite { .. } | Self::Inconsistent { .. } => {
+            Self::NoRoot { .. } | Self::NotConverged { .. } | Self::NotFinite { .. } | Self::Inconsistent { .. } => {
                 "this should not happen for a checked case: please report it with case.toml".into()
             }
         }
