@@ -163,7 +163,7 @@ impl Bed {
         // Excess of the seepage just above the level over the slip of moving grains: their velocity there.
         let moving = |h_c: f64| {
             let mesh = self.mesh(on_yield, h_c);
-            self.with(&mesh, k, |coupled| {
+            self.with(&mesh, h_c, k, |coupled| {
                 let still = mesh.below(h_c);
                 coupled.rigid(still).u[still] / (k * self.mu_s * self.phi) - 1.0
             })
@@ -177,42 +177,31 @@ impl Bed {
         };
         let mesh = self.mesh(on_yield, h_c);
         let still = mesh.below(h_c);
-        let start = self.with(&mesh, k, |coupled| coupled.rigid(still));
+        let start = self.with(&mesh, h_c, k, |coupled| coupled.rigid(still));
         if regularisation.is_exact() && self.rise.is_none() {
             let solved = two_fluid::Solved { history, ..start };
-            return Ok(self.collect(mesh, h_c, solved, Some((still, k))));
+            return Ok(self.collect(mesh, h_c, k, solved));
         }
         let mesh = if nodes.on_yield { mesh } else { self.mesh(nodes, h_c) };
-        let start = self.with(&mesh, k, |coupled| coupled.rigid(mesh.below(h_c)));
-        let solved = self.with(&mesh, k, |coupled| coupled.creeping(&start, regularisation));
+        let start = self.with(&mesh, h_c, k, |coupled| coupled.rigid(mesh.below(h_c)));
+        let solved = self.with(&mesh, h_c, k, |coupled| coupled.creeping(&start, regularisation));
         let solved = solved.map_err(|e| SolveError::NotConverged { residual: e.residual, iterations: e.iterations })?;
-        Ok(self.collect(mesh, h_c, solved, None))
+        Ok(self.collect(mesh, h_c, k, solved))
     }
 
     /// Calls `run` with the coupled problem on `mesh`.
-    fn with<T>(&self, mesh: &Mesh, k: f64, run: impl FnOnce(&two_fluid::Coupled<'_>) -> T) -> T {
+    fn with<T>(&self, mesh: &Mesh, h_c: f64, k: f64, run: impl FnOnce(&two_fluid::Coupled<'_>) -> T) -> T {
         let elements = self.elements(mesh);
         let bed = mesh.below(self.h_p);
         let yields: Vec<f64> = mesh.nodes()[..=bed].iter().map(|&z| self.mu_s * self.pressure(z)).collect();
         let k = vec![k; bed];
-        run(&two_fluid::Coupled { mesh, elements: &elements, bed, f: self.f, k: &k, yields: &yields })
+        let fitted = (0..bed).take_while(|&i| mesh.nodes()[i + 1] <= h_c * (1.0 + 1e-12)).count();
+        run(&two_fluid::Coupled { mesh, elements: &elements, bed, f: self.f, fitted, k: &k, yields: &yields })
     }
 
-    fn collect(&self, mesh: Mesh, h_c: f64, solved: two_fluid::Solved, fitted: Option<(usize, f64)>) -> Solution {
+    fn collect(&self, mesh: Mesh, h_c: f64, k: f64, solved: two_fluid::Solved) -> Solution {
+        let tau_f = self.with(&mesh, h_c, k, |coupled| coupled.fluid_stress(&solved.u, &solved.w));
         let bed = mesh.below(self.h_p);
-        let elements = self.elements(&mesh);
-        let stress = |i: usize| {
-            let (e, h) = (elements[i].e, mesh.size(i));
-            let width = match fitted {
-                Some((still, k)) if i < still => {
-                    let l = (k * e).sqrt();
-                    2.0 * l * (0.5 * h / l).sinh()
-                }
-                _ => h,
-            };
-            e * (solved.u[i + 1] - solved.u[i]) / width
-        };
-        let tau_f = (0..mesh.elements()).map(stress).collect();
         Solution { bed, h_c, tau_f, u: solved.u, w: solved.w, tau_p: solved.tau_p, history: solved.history, mesh }
     }
 
