@@ -113,6 +113,7 @@ fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
     summary.results = outcome.results.clone();
     summary.balances = outcome.balances.clone();
     summary.validity = outcome.validity.clone();
+    summary.regularisation = outcome.regularisation.clone();
     summary.cost = cost;
 }
 

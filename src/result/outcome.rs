@@ -1,5 +1,7 @@
 //! What a solver hands back: an [`Outcome`], or a [`Failure`] that keeps the last good state.
 
+use serde_json::{Map, Value};
+
 use super::{Balance, Profile, Results, Series, Status, TableError, Validity};
 
 /// Everything that a run has to say, before it is written.
@@ -17,6 +19,8 @@ pub struct Outcome {
     pub balances: Vec<Balance>,
     /// closures that were used outside their range
     pub validity: Vec<Validity>,
+    /// every small number that the run used, by name
+    pub regularisation: Map<String, Value>,
 }
 
 /// Why a method failed, with the numbers that say so.

@@ -3,6 +3,8 @@
 use super::element::{Element, Rise};
 use super::mesh::{Layer, Mesh};
 use super::{single, two_fluid};
+use crate::closures::friction::MuIv;
+use crate::continuum::exact::ouriemi::Scaled;
 use crate::numerics::root::brent;
 use crate::problem::Regularisation;
 use crate::result::SolveError;
@@ -18,8 +20,8 @@ pub struct Bed {
     pub phi: f64,
     /// friction at vanishing shear rate
     pub mu_s: f64,
-    /// mu_2 - mu_s and I_0 of mu(I_v)
-    pub rise: Option<(f64, f64)>,
+    /// mu(I_v), if the friction rises with the shear rate
+    pub rise: Option<MuIv>,
     /// relative viscosity of the bed
     pub e: f64,
     /// permeability; `None`: one velocity
@@ -52,11 +54,21 @@ pub struct Solution {
     pub tau_f: Vec<f64>,
     /// stress of the grains, by element of the bed
     pub tau_p: Vec<f64>,
+    /// integral of U - w over the bed
+    pub slip: f64,
     /// residuals, one per iteration
     pub history: Vec<f64>,
 }
 
 impl Bed {
+    /// Largest drive with a static layer: that of the closed form for Coulomb friction with one velocity, mu_s phi otherwise.
+    #[must_use]
+    pub fn largest_drive(&self) -> f64 {
+        let hold = self.mu_s * self.phi;
+        let k = if self.rise.is_some() { Some(0.0) } else { self.k };
+        Scaled { f: self.f, hold, e: self.e, h_p: self.h_p, k }.largest_drive()
+    }
+
     /// Particle pressure at `z`.
     #[must_use]
     pub fn pressure(&self, z: f64) -> f64 {
@@ -83,7 +95,7 @@ impl Bed {
     }
 
     fn elements(&self, mesh: &Mesh) -> Vec<Element> {
-        let rise = |p: f64| self.rise.map(|(mu, i_0)| Rise { p, mu, i_0 });
+        let rise = |p: f64| self.rise.map(|law| Rise { p, law });
         let element = |k: usize| {
             let z = mesh.middle(k);
             if z < self.h_p {
@@ -152,6 +164,7 @@ impl Bed {
             w: solved.u[..=bed].to_vec(),
             tau_f,
             tau_p,
+            slip: 0.0,
             u: solved.u,
             mesh,
             history: solved.history,
@@ -200,13 +213,19 @@ impl Bed {
     }
 
     fn collect(&self, mesh: Mesh, h_c: f64, k: f64, solved: two_fluid::Solved) -> Solution {
-        let tau_f = self.with(&mesh, h_c, k, |coupled| coupled.fluid_stress(&solved.u, &solved.w));
+        let (tau_f, slip) = self.with(&mesh, h_c, k, |coupled| {
+            (coupled.fluid_stress(&solved.u, &solved.w), coupled.slip_integral(&solved.u, &solved.w))
+        });
         let bed = mesh.below(self.h_p);
-        Solution { bed, h_c, tau_f, u: solved.u, w: solved.w, tau_p: solved.tau_p, history: solved.history, mesh }
+        Solution { bed, h_c, tau_f, u: solved.u, w: solved.w, tau_p: solved.tau_p, slip, history: solved.history, mesh }
     }
 
     fn whole_bed(&self, level: f64) -> SolveError {
-        SolveError::WholeBedMoves { mobile_depth_m: self.h_p - level.min(0.0), bed_m: self.h_p, limit_pa_m: f64::NAN }
+        SolveError::WholeBedMoves {
+            mobile_depth_m: self.h_p - level.min(0.0),
+            bed_m: self.h_p,
+            limit_pa_m: self.largest_drive(),
+        }
     }
 }
 
@@ -215,6 +234,13 @@ fn not_converged(error: single::NotConverged) -> SolveError {
 }
 
 impl Solution {
+    /// Fluid stress at the bed level, from above.
+    #[must_use]
+    pub fn tau_interface(&self, f: f64) -> f64 {
+        let z = self.mesh.nodes()[self.bed];
+        self.tau_f[self.bed] + f * (self.mesh.middle(self.bed) - z)
+    }
+
     /// Solid flux per phi: integral of the grain velocity over the bed. Exact where the shear rate is linear on each side of
     /// the yield level: the trapezoidal rule with the change of the shear rate along the element.
     #[must_use]
@@ -238,7 +264,6 @@ impl Solution {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::continuum::exact::ouriemi::Scaled;
     use crate::problem::Smoothing;
     use approx::assert_relative_eq;
 

@@ -225,6 +225,12 @@ impl Coupled<'_> {
         Vector2::new(mixture, solid(j) - solid(j - 1) + above + self.drag(j - 1, true, u, w))
     }
 
+    /// Integral of U - w over the bed, from the drag.
+    #[must_use]
+    pub fn slip_integral(&self, u: &[f64], w: &[f64]) -> f64 {
+        (0..self.bed).map(|k| self.k[k] * (self.drag(k, true, u, w) + self.drag(k, false, u, w))).sum()
+    }
+
     /// Largest residual of both momentum equations, relative to the drive over the height.
     fn residual(&self, u: &[f64], w: &[f64], tau_p: &[f64]) -> f64 {
         let tau_f = self.fluid_stress(u, w);
