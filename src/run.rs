@@ -9,16 +9,18 @@ use crate::result::{Failure, Outcome, Watch};
 /// Solves `problem`. `watch` sees the progress and may ask to stop; it cannot change the result.
 ///
 /// # Errors
-/// [`Failure`]: why the method failed, with the numbers that say so and the last good state.
+/// [`Failure`]: why the method failed, with the numbers that say so and the last good state. A result that is not a
+/// finite number is a failure, too.
 pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
-    match &problem.model {
+    let outcome = match &problem.model {
         Model::Ouriemi(bed) => ouriemi::run(bed, problem.cells, watch),
         Model::BinghamPlane(plane) => bingham::run(plane, problem.cells, watch),
         Model::BagnoldFilm(film) => bagnold::run(film, problem.cells, watch),
         Model::LogLaw(wall) => log_law::run(wall, problem.cells, watch),
         Model::Laminar(bed) => laminar::run(bed, problem.cells, watch),
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
-    }
+    };
+    outcome?.finite()
 }
 
 /// The equations that are solved, with the numbers of `problem` filled in.

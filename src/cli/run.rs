@@ -45,11 +45,12 @@ impl Run {
     pub(super) fn execute(self) -> Result<(), CliError> {
         let start = Instant::now();
         let (case, problem) = self.case.load()?;
+        // Listening begins before there is anything that Ctrl-C could leave half done.
+        let mut progress = Progress::new(self.quiet);
         let out = self.out.unwrap_or_else(|| PathBuf::from("runs").join(&case.name));
         let mode = Mode { force: self.force, resume: self.resume };
         let folder = Folder::prepare(&out, &case.resolved(), mode)?;
         let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
-        let mut progress = Progress::new(self.quiet);
         let solving = Instant::now();
         let result = crate::run(&problem, &mut progress);
         drop(progress);
@@ -70,7 +71,7 @@ impl Run {
         }
         match (written.summary.status, &written.summary.error) {
             (Status::Failed, Some(error)) => Err(CliError::Failed(error.clone(), Some(value))),
-            (Status::Stopped, _) => Err(CliError::Stopped(value)),
+            (Status::Stopped, _) => Err(CliError::Stopped(value, written.kept)),
             _ if self.json => Ok(answer(&value)?),
             _ if self.quiet => Ok(()),
             _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.as_typed()))?),

@@ -3,13 +3,14 @@
 use std::fs;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
+use std::process;
 
 use serde_json::Map;
 use sha2::{Digest, Sha256};
 
 use super::folder::{Folder, OutputError, write_whole};
 use crate::case::Case;
-use crate::plot::{self, Page, PlotError};
+use crate::plot::{self, Page};
 use crate::problem::Problem;
 use crate::result::{
     Cost, ErrorReport, Failure, Outcome, Profile, Provenance, Results, Series, Status, Summary, TableError,
@@ -22,6 +23,8 @@ pub struct Written {
     pub summary: Summary,
     /// figures that were drawn as PNG
     pub figures: Vec<PathBuf>,
+    /// whether the folder still holds the finished run that it held before
+    pub kept: bool,
 }
 
 /// The summary of a run that has just begun.
@@ -119,8 +122,12 @@ fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
 
 fn complete(folder: Folder, summary: Summary, figures: Vec<PathBuf>) -> Result<Written, OutputError> {
     write_summary(&folder, &summary)?;
-    folder.finish()?;
-    Ok(Written { summary, figures })
+    // Ctrl-C loses nothing: what is only begun does not replace what is done.
+    let kept = summary.status == Status::Stopped && folder.over_finished();
+    if !kept {
+        folder.finish()?;
+    }
+    Ok(Written { summary, figures, kept })
 }
 
 fn write_summary(folder: &Folder, summary: &Summary) -> Result<(), OutputError> {
@@ -172,10 +179,6 @@ fn draw(
     png: bool,
 ) -> Result<Vec<PathBuf>, OutputError> {
     let figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
-    let failed = |name: &str| {
-        let path = place.join(name);
-        move |error: PlotError| OutputError::Interrupted { path, error: io::Error::other(error) }
-    };
     let page = {
         let (equations, notes) = (crate::equations(problem), [problem.title.clone()]);
         plot::report_html(&Page { summary, figures: &figures, equations: &equations, case_toml: case, notes: &notes })
@@ -190,7 +193,15 @@ fn draw(
         .iter()
         .map(|figure| {
             let name = format!("figures/{}.png", figure.stem);
-            plot::png(figure, &place.join(&name)).map_err(failed(&name))?;
+            // Drawn beside and renamed, as every file: the ending tells the format.
+            let partial = folder.join(format!(".{}.part-{}.png", figure.stem, process::id()));
+            let drawn = plot::png(figure, &partial)
+                .map_err(io::Error::other)
+                .and_then(|()| fs::rename(&partial, place.join(&name)));
+            if let Err(error) = drawn {
+                let _ = fs::remove_file(&partial);
+                return Err(OutputError::Interrupted { path: place.join(&name), error });
+            }
             Ok(shown.join(&name))
         })
         .collect()
@@ -218,5 +229,5 @@ pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
     let case = Case::parse(&summary.case, "case.toml", text.clone(), &[]).map_err(|error| wrong(error.to_string()))?;
     let problem = Problem::new(&case).map_err(|error| wrong(error.to_string()))?;
     let figures = draw(folder, folder, &summary, profile.as_ref(), &problem, &text, png)?;
-    Ok(Written { summary, figures })
+    Ok(Written { summary, figures, kept: false })
 }

@@ -46,6 +46,28 @@ pub enum Model {
 type Faults = Vec<(&'static str, Fault)>;
 
 impl Problem {
+    /// Loads a case, a file or a shipped one, and checks it whole: its text, and its values against each other.
+    ///
+    /// # Errors
+    /// Every violation of both kinds, as far as the values could be read.
+    pub fn load(name: &str, overrides: &[String]) -> Result<(Case, Self), CaseError> {
+        Self::check(Case::load(name, overrides))
+    }
+
+    /// Checks a case that was just read; one that is wrong already is checked as far as its values could be read.
+    ///
+    /// # Errors
+    /// Every violation.
+    pub fn check(case: Result<Case, CaseError>) -> Result<(Case, Self), CaseError> {
+        match case {
+            Ok(case) => Self::new(&case).map(|problem| (case, problem)),
+            Err(error) => Err(match error.draft().map(Self::new) {
+                Some(Err(more)) => error.and(more),
+                _ => error,
+            }),
+        }
+    }
+
     /// Checks what no schema can: values against each other, laws against the model, checks against the results.
     ///
     /// # Errors

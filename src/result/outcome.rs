@@ -98,6 +98,12 @@ pub enum SolveError {
         /// row, from 0
         row: usize,
     },
+    /// A number or a balance that leaves the range of floating-point numbers.
+    #[error("{name} cannot be computed: a number on the way is larger or smaller than any that the machine has")]
+    NotRepresentable {
+        /// result, balance or variable
+        name: String,
+    },
     /// Columns of unequal length: a defect of the program.
     #[error("{column} has the wrong number of rows")]
     Inconsistent {
@@ -118,6 +124,7 @@ impl SolveError {
             Self::NoRoot { .. } => "no-root",
             Self::NotConverged { .. } => "not-converged",
             Self::NotFinite { .. } => "not-finite",
+            Self::NotRepresentable { .. } => "not-representable",
             Self::Inconsistent { .. } => "inconsistent",
         }
     }
@@ -132,7 +139,10 @@ impl SolveError {
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
             Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),
-            Self::NoRoot { .. } | Self::NotConverged { .. } | Self::NotFinite { .. } | Self::Inconsistent { .. } => {
+            Self::NotFinite { .. } | Self::NotRepresentable { .. } => {
+                "a value of the case is far from those of any flow: case.toml has all of them in SI".into()
+            }
+            Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {
                 "this should not happen for a checked case: please report it with case.toml".into()
             }
         }
@@ -146,6 +156,24 @@ impl From<TableError> for SolveError {
             TableError::Length { column, .. } => Self::Inconsistent { column },
             _ => Self::Inconsistent { column: "table" },
         }
+    }
+}
+
+impl Outcome {
+    /// The outcome, if every number in it is one; else a failure that keeps those that are.
+    ///
+    /// # Errors
+    /// [`SolveError::NotRepresentable`] with the first result, balance or variable that is not finite.
+    pub fn finite(mut self) -> Result<Self, Failure> {
+        let results =
+            self.results.iter().filter(|(_, reported)| reported.overflowed()).map(|(name, _)| name.to_owned());
+        let balances =
+            self.balances.iter().filter(|b| !b.relative.is_finite()).map(|b| format!("the balance {}", b.name));
+        let variables = self.validity.iter().filter(|v| !v.value.is_finite()).map(|v| v.variable.clone());
+        let Some(name) = results.chain(balances).chain(variables).next() else { return Ok(self) };
+        self.balances.retain(|b| b.relative.is_finite());
+        self.validity.retain(|v| v.value.is_finite());
+        Err(Failure { error: SolveError::NotRepresentable { name }, last: Some(Box::new(self)) })
     }
 }
 
