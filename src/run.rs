@@ -2,7 +2,8 @@
 
 use crate::closures::{Info, drag::carman_kozeny, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
-use crate::problem::{Model, Problem};
+use crate::continuum::laminar;
+use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
 
 /// Relative residual of a balance from which on a closed form has lost its digits: its value is round-off otherwise.
@@ -19,6 +20,8 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::BinghamPlane(plane) => bingham::run(plane, problem.cells, watch),
         Model::BagnoldFilm(film) => bagnold::run(film, problem.cells, watch),
         Model::LogLaw(wall) => log_law::run(wall, problem.cells, watch),
+        Model::Laminar(bed) => laminar::run(bed, problem.cells, watch),
+        Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
     };
     outcome?.trusted(LARGEST_IMBALANCE)
 }
@@ -31,6 +34,8 @@ pub fn equations(problem: &Problem) -> String {
         Model::BinghamPlane(plane) => bingham::equations(plane),
         Model::BagnoldFilm(film) => bagnold::equations(film),
         Model::LogLaw(wall) => log_law::equations(wall),
+        Model::Laminar(bed) => laminar::equations(bed),
+        Model::Bingham(plane) => laminar::bingham_equations(plane),
     }
 }
 
@@ -38,12 +43,13 @@ pub fn equations(problem: &Problem) -> String {
 #[must_use]
 pub fn closures(problem: &Problem) -> Vec<&'static Info> {
     match &problem.model {
-        Model::Ouriemi(bed) => {
-            let mut laws = vec![&friction::coulomb::INFO, bed.viscosity.info()];
+        Model::Ouriemi(bed) | Model::Laminar(RegularisedBed { bed, .. }) => {
+            let friction = if bed.rise.is_some() { &friction::mu_iv::INFO } else { &friction::coulomb::INFO };
+            let mut laws = vec![friction, bed.viscosity.info()];
             laws.extend(bed.drag.map(|_| &carman_kozeny::INFO));
             laws
         }
-        Model::BinghamPlane(_) => Vec::new(),
+        Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
         Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
         Model::LogLaw(_) => vec![&mixing_length::prandtl::INFO, &wall::rough::INFO],
     }

@@ -214,6 +214,8 @@ impl Walk {
     fn table(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
         let Data::Table(entries) = &node.data else { return self.wrong(node, path, "a table") };
         let mut object = Map::new();
+        // What a misspelt key stands for is not missing as well.
+        let mut meant: Vec<String> = Vec::new();
         for (name, child) in entries {
             let child_path = join(path, name);
             match schema.get("properties").and_then(|p| p.get(name)) {
@@ -224,17 +226,18 @@ impl Walk {
                     let value = self.value(child, child_schema, &child_path);
                     object.insert(name.clone(), value);
                 }
-                None => self.unknown(name, child, schema, path),
+                None => meant.extend(self.unknown(name, child, schema, path)),
             }
         }
         for name in schema.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str) {
-            if !object.contains_key(name) {
+            if !object.contains_key(name) && !meant.iter().any(|m| m == name) {
                 self.missing(name, &schema["properties"][name], path, &node.key);
             }
         }
         if let Some(drives) = schema::drives(schema) {
             let given: Vec<&str> = drives.iter().copied().filter(|d| object.contains_key(*d)).collect();
-            if given.len() != 1 {
+            let misspelt = given.is_empty() && drives.iter().any(|d| meant.iter().any(|m| m == d));
+            if given.len() != 1 && !misspelt {
                 let mut spans: Vec<Span> = given
                     .iter()
                     .filter_map(|d| entries.iter().find(|(k, _)| k == d))
@@ -251,7 +254,8 @@ impl Walk {
         Value::Object(object)
     }
 
-    fn unknown(&mut self, name: &str, node: &Node, schema: &Value, path: &str) {
+    /// Reports a name that the table does not have; returns the one that it stands for.
+    fn unknown(&mut self, name: &str, node: &Node, schema: &Value, path: &str) -> Option<String> {
         let what =
             if path.is_empty() && matches!(node.data, Data::Table(_) | Data::Array(_)) { "table" } else { "key" };
         let allowed: Vec<String> = schema::properties(schema).map(|(k, _)| k.clone()).collect();
@@ -271,7 +275,9 @@ impl Walk {
                 allowed,
             },
         };
+        let meant = if let Fault::Unknown { nearest, elsewhere: None, .. } = &fault { nearest.clone() } else { None };
         self.report(fault, &child_path, &node.key);
+        meant
     }
 
     fn missing(&mut self, name: &str, schema: &Value, path: &str, at: &Span) {

@@ -6,41 +6,75 @@ use serde_json::Value;
 
 use super::schema::{self, SCENES};
 
-/// All tables and keys of all models, as Markdown.
+/// All tables and keys of all models, as Markdown: what every model has comes once, first.
 #[must_use]
 pub fn reference() -> String {
     let mut text = String::from(
         "# Case reference\n\nWritten by `bedload schema --reference` from the types of the program; do not edit.\n\n\
-         A quantity is a number in SI or a text with a unit: `0.002` or `\"2 mm\"`. Keys with a default may be left out.\n",
+         A quantity is a number in SI or a text with a unit: `0.002` or `\"2 mm\"`. Keys with a default may be left out. \
+         A table or key that the model of the case does not have is an error.\n\n\
+         | `kind`/`solution` | what is solved | tables beside those of every model |\n|---|---|---|\n",
     );
     for scene in SCENES.iter() {
+        let own: Vec<String> = own(&scene.schema).map(|(name, table)| format!("`{}`", title(name, table))).collect();
+        let _ =
+            writeln!(text, "| `{}` | {} | {} |", scene.name, schema::text(&scene.schema, "description"), own.join(" "));
+    }
+    text += "\n## In every model\n";
+    let shared = SCENES.first().into_iter().flat_map(|scene| schema::properties(&scene.schema));
+    for (name, table) in shared.filter(|(name, table)| common(name, table)) {
+        part(&mut text, name, table);
+    }
+    for scene in SCENES.iter() {
         let _ = write!(text, "\n## Model `{}`\n\n{}\n", scene.name, schema::text(&scene.schema, "description"));
-        for (name, table) in schema::properties(&scene.schema) {
-            let items = table.get("items");
-            match (items, schema::properties(table).next()) {
-                (Some(items), _) => section(&mut text, &format!("[[{name}]]"), table, items),
-                (None, Some(_)) => section(&mut text, &format!("[{name}]"), table, table),
-                (None, None) => {
-                    let _ = write!(text, "\n### `{name}`\n\n{} {}\n", schema::text(table, "description"), what(table));
-                }
-            }
+        for (name, table) in own(&scene.schema) {
+            part(&mut text, name, table);
         }
     }
     text
 }
 
+/// Whether every model has the table `name`, and the same one.
+fn common(name: &str, table: &Value) -> bool {
+    SCENES.iter().all(|scene| schema::properties(&scene.schema).any(|(n, t)| n == name && t == table))
+}
+
+/// The tables of a model that not every model has.
+fn own(scene: &Value) -> impl Iterator<Item = (&String, &Value)> {
+    schema::properties(scene).filter(|(name, table)| !common(name, table))
+}
+
+/// The table as a case file writes it.
+fn title(name: &str, table: &Value) -> String {
+    match (table.get("items"), schema::properties(table).next()) {
+        (Some(_), _) => format!("[[{name}]]"),
+        (None, Some(_)) => format!("[{name}]"),
+        (None, None) => name.to_owned(),
+    }
+}
+
+/// A table, an array of tables, or a key at the top of the file.
+fn part(text: &mut String, name: &str, table: &Value) {
+    let keys = table.get("items").unwrap_or(table);
+    if schema::properties(keys).next().is_some() {
+        section(text, &title(name, table), table, keys);
+    } else {
+        let _ = write!(text, "\n### `{name}`\n\n{} {}.\n", schema::text(table, "description"), what(table));
+    }
+}
+
 fn section(text: &mut String, title: &str, about: &Value, table: &Value) {
-    let _ = write!(text, "\n### `{title}`\n\n{}\n\n", schema::text(about, "description"));
+    let _ = write!(text, "\n### `{title}`\n\n{}\n", schema::text(about, "description"));
     let families: Vec<_> = schema::properties(table).filter(|(_, s)| schema::alternatives(s).is_some()).collect();
     if families.is_empty() {
         rows(text, table);
     }
     for (family, schema) in families {
-        let _ = write!(text, "**`[closures.{family}]`** {}\n\n", schema::text(schema, "description"));
+        let _ = write!(text, "\n**`[closures.{family}]`** {}\n", schema::text(schema, "description"));
         for (law, alternative) in schema::alternatives(schema).unwrap_or_default() {
             let default = schema.pointer("/default/law").and_then(Value::as_str) == Some(law);
             let default = if default { " (default)" } else { "" };
-            let _ = write!(text, "`law = \"{law}\"`{default}: {}\n\n", schema::text(alternative, "description"));
+            let _ = write!(text, "\n`law = \"{law}\"`{default}: {}\n", schema::text(alternative, "description"));
             if schema::properties(alternative).count() > 1 {
                 rows(text, alternative);
             }
@@ -52,7 +86,7 @@ fn rows(text: &mut String, table: &Value) {
     let required: Vec<&str> =
         table.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
     let drives = schema::drives(table).unwrap_or_default();
-    text.push_str("| key | | what | allowed |\n|---|---|---|---|\n");
+    text.push_str("\n| key | needed | what | allowed |\n|---|---|---|---|\n");
     for (key, schema) in schema::properties(table).filter(|(_, s)| s.get("const").is_none()) {
         let need = if required.contains(&key.as_str()) {
             "required".to_owned()
@@ -63,7 +97,6 @@ fn rows(text: &mut String, table: &Value) {
         };
         let _ = writeln!(text, "| `{key}` | {need} | {} | {} |", schema::text(schema, "description"), what(schema));
     }
-    text.push('\n');
 }
 
 fn plain(value: &Value) -> String {
@@ -79,11 +112,11 @@ fn what(schema: &Value) -> String {
                 if about.is_empty() || constants.len() == 1 {
                     format!("`\"{c}\"`")
                 } else {
-                    format!("`\"{c}\"`: {about}")
+                    format!("`\"{c}\"`: {}", about.trim_end_matches('.'))
                 }
             })
             .collect();
-        return choices.join(" ");
+        return choices.join("; ");
     }
     match schema::text(schema, "type") {
         "number" | "integer" => schema::range(schema),

@@ -122,19 +122,15 @@ pub(super) fn drives(schema: &Value) -> Option<Vec<&str>> {
 /// The range of a number in words: `more than 0 and at most 2 kg/m3`.
 pub(super) fn range(schema: &Value) -> String {
     let bound = |keyword: &str| schema.get(keyword).and_then(Value::as_f64);
-    let mut parts = Vec::new();
-    if let Some(x) = bound("exclusiveMinimum") {
-        parts.push(format!("more than {x}"));
-    }
-    if let Some(x) = bound("minimum") {
-        parts.push(format!("at least {x}"));
-    }
-    if let Some(x) = bound("exclusiveMaximum") {
-        parts.push(format!("less than {x}"));
-    }
-    if let Some(x) = bound("maximum") {
-        parts.push(format!("at most {x}"));
-    }
+    let number = |x: f64| if x.abs() >= 1e6 { format!("{x:e}") } else { x.to_string() };
+    let ends = [
+        ("exclusiveMinimum", "more than"),
+        ("minimum", "at least"),
+        ("exclusiveMaximum", "less than"),
+        ("maximum", "at most"),
+    ];
+    let parts: Vec<String> =
+        ends.iter().filter_map(|(keyword, words)| Some(format!("{words} {}", number(bound(keyword)?)))).collect();
     let unit = text(schema, "x-unit");
     let unit = if unit.is_empty() || unit == "1" { String::new() } else { format!(" {unit}") };
     match parts.len() {

@@ -10,6 +10,7 @@ use crate::closures::drag::Drag;
 use crate::closures::friction::Friction;
 use crate::closures::mixing_length::MixingLength;
 use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::regularisation::Smoothing;
 use crate::closures::wall::Wall;
 
 /// What the case is about.
@@ -155,7 +156,7 @@ pub struct WallFlow {
 /// The model: Ouriemi's bed in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct OuriemiModel {
-    /// Closed forms.
+    /// What kind of model: this one is a closed form.
     pub kind: ExactKind,
     /// Newtonian fluid over a Coulomb bed between two planes.
     pub solution: OuriemiSolution,
@@ -166,7 +167,7 @@ pub struct OuriemiModel {
 /// The model: Bingham plane Poiseuille flow in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BinghamModel {
-    /// Closed forms.
+    /// What kind of model: this one is a closed form.
     pub kind: ExactKind,
     /// Bingham fluid between two planes.
     pub solution: BinghamSolution,
@@ -175,7 +176,7 @@ pub struct BinghamModel {
 /// The model: Bagnold's granular film in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BagnoldModel {
-    /// Closed forms.
+    /// What kind of model: this one is a closed form.
     pub kind: ExactKind,
     /// Dry grains down a slope.
     pub solution: BagnoldSolution,
@@ -184,10 +185,64 @@ pub struct BagnoldModel {
 /// The model: the logarithmic law.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LogLawModel {
-    /// Closed forms.
+    /// What kind of model: this one is a closed form.
     pub kind: ExactKind,
     /// Turbulent layer of constant stress over a rough wall.
     pub solution: LogLawSolution,
+}
+
+/// The model: a laminar bed, solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LaminarModel {
+    /// What kind of model: a laminar flow over a bed.
+    pub kind: LaminarKind,
+    /// One velocity for fluid and grains, or two.
+    pub form: Form,
+}
+
+/// The model: a Bingham fluid between two planes, solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BinghamKindModel {
+    /// What kind of model: plane flow of a Bingham fluid.
+    pub kind: BinghamKind,
+}
+
+/// How the yield stress is smoothed, and by how much: a size for every law but `none`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RegularisationTable {
+    /// Law of the smoothing.
+    #[serde(default)]
+    pub law: Smoothing,
+    /// Size: shear rate below which the material creeps instead of standing still.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1/s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
+    pub lambda: Option<f64>,
+    /// Size in the model's unit of shear rate: (rho_p - rho_f) g H/eta for a bed; for a Bingham fluid U_m/H, or G H/eta where the gradient G is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub lambda_scaled: Option<f64>,
+}
+
+/// Cells of a solver.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct YieldGrid {
+    /// Number of cells.
+    #[serde(default = "cells")]
+    #[schemars(extend("minimum" = 8, "maximum" = 1_000_000))]
+    pub cells: usize,
+    /// Whether a node is placed on the yield level, where the solution has a corner.
+    #[serde(default = "yes")]
+    pub yield_node: bool,
+}
+
+impl Default for YieldGrid {
+    fn default() -> Self {
+        Self { cells: cells(), yield_node: true }
+    }
+}
+
+fn yes() -> bool {
+    true
 }
 
 macro_rules! only {
@@ -206,6 +261,16 @@ only!(
     /// Closed forms.
     ExactKind,
     Exact
+);
+only!(
+    /// A laminar flow over a bed, solved numerically.
+    LaminarKind,
+    Laminar
+);
+only!(
+    /// Plane flow of a Bingham fluid, solved numerically.
+    BinghamKind,
+    Bingham
 );
 only!(
     /// Newtonian fluid over a Coulomb bed between two planes.
@@ -292,7 +357,7 @@ pub struct Check {
     pub at: Option<f64>,
     /// The expected value, in SI.
     pub expect: f64,
-    /// Largest accepted deviation relative to the expected value; absolute where that is 0.
+    /// Largest accepted deviation relative to the expected value, such as 1e-3 or "0.1 %"; absolute where that is 0.
     #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1e6))]
     pub tolerance: f64,
     /// What kind of agreement this is.

@@ -68,6 +68,12 @@ struct CaseArgs {
 }
 
 impl CaseArgs {
+    /// The arguments that name this case again.
+    fn as_typed(&self) -> String {
+        let overrides = self.overrides.iter().map(|o| format!(" --set \"{o}\""));
+        std::iter::once(self.case.clone()).chain(overrides).collect()
+    }
+
     fn load(&self) -> Result<(Case, Problem), CliError> {
         Ok(Problem::load(&self.case, &self.overrides)?)
     }
@@ -87,7 +93,7 @@ enum CliError {
     /// stopped by the user: 4. The answer for `--json`, and whether the folder keeps an earlier run
     Stopped(Value, bool),
     /// an argument that clap cannot judge: 2
-    Usage { code: &'static str, message: String, hint: String },
+    Usage { message: String, hint: String },
     /// standard output or a file: 1
     Io(io::Error),
     /// everything has been said: only the code is left
@@ -203,11 +209,10 @@ impl CliError {
             }
             Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
             Self::Failed(error, summary) => summary.unwrap_or_else(|| json!({ "status": "failed", "error": error })),
-            Self::Red(rows) => one("red-rows", format!("{rows} rows are red"), None),
             Self::Stopped(summary, _) => summary,
-            Self::Usage { code, message, hint } => one(code, message, Some(hint)),
+            Self::Usage { message, hint } => one("usage", message, Some(hint)),
             Self::Io(error) => one("io", error.to_string(), None),
-            Self::Quiet(_) => Value::Null,
+            Self::Red(_) | Self::Quiet(_) => Value::Null,
         }
     }
 

@@ -29,7 +29,7 @@ impl New {
             let hint = nearest(&self.from, shipped::names())
                 .map_or_else(|| "`bedload list cases` shows them".into(), |n| format!("did you mean \"{n}\"?"));
             let message = format!("there is no shipped case \"{}\"", self.from);
-            return Err(CliError::Usage { code: "no-such-case", message, hint });
+            return Err(CliError::Usage { message, hint });
         };
         // The first line points an editor at the schema beside the shipped cases.
         let content = content
@@ -42,7 +42,6 @@ impl New {
         let refused = |error: std::io::Error| {
             let exists = error.kind() == ErrorKind::AlreadyExists;
             CliError::Usage {
-                code: if exists { "file-exists" } else { "unwritable" },
                 message: if exists {
                     format!("{file} is there already")
                 } else {

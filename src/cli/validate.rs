@@ -1,7 +1,7 @@
 //! `bedload validate`: re-run what the cases claim.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::{Value, json};
@@ -21,7 +21,7 @@ pub(super) struct Validate {
     /// Include the rows that take long
     #[arg(long)]
     full: bool,
-    /// File for the table [default: docs/validation.md for the shipped cases with --full, none otherwise]
+    /// File for the table [default: docs/validation.md with --full, where there is a folder docs]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// Print one JSON object
@@ -33,7 +33,9 @@ impl Validate {
     pub(super) fn execute(self) -> Result<(), CliError> {
         let tier = if self.full { Tier::Full } else { Tier::Quick };
         let rows = validate(&self.cases, tier, &mut Progress::new(self.json))?;
-        let default = (self.full && self.cases.is_empty()).then(|| PathBuf::from("docs/validation.md"));
+        let default = (self.full && self.cases.is_empty())
+            .then(|| PathBuf::from("docs/validation.md"))
+            .filter(|_| Path::new("docs").is_dir());
         if let Some(file) = self.out.or(default) {
             if let Some(folder) = file.parent() {
                 fs::create_dir_all(folder)?;

@@ -1,5 +1,6 @@
 //! Numerical methods that know no physics.
 
+pub mod block_thomas;
 pub mod levels;
 pub mod quadrature;
 pub mod root;

@@ -34,7 +34,7 @@ pub enum OutputError {
         case: String,
     },
     /// the same case, not finished
-    #[error("{} holds an unfinished run of this case ({status:?})", folder.display())]
+    #[error("{} holds an unfinished run of this case ({status})", folder.display())]
     Unfinished {
         /// the folder
         folder: PathBuf,

@@ -116,6 +116,7 @@ fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
     summary.results = outcome.results.clone();
     summary.balances = outcome.balances.clone();
     summary.validity = outcome.validity.clone();
+    summary.regularisation = outcome.regularisation.clone();
     summary.cost = cost;
 }
 
@@ -153,7 +154,7 @@ fn write_body(
         folder.write("series.csv", |to| series.write_csv(to, &comments).map_err(as_io))?;
     }
     let case = fs::read_to_string(folder.place("case.toml")).unwrap_or_default();
-    draw(&folder.place("."), folder.path(), summary, profile, &crate::equations(problem), &case, png)
+    draw(&folder.place("."), folder.path(), summary, profile, problem, &case, png)
 }
 
 fn as_io(error: TableError) -> io::Error {
@@ -173,12 +174,15 @@ fn draw(
     shown: &Path,
     summary: &Summary,
     profile: Option<&Profile>,
-    equations: &str,
+    problem: &Problem,
     case: &str,
     png: bool,
 ) -> Result<Vec<PathBuf>, OutputError> {
     let figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
-    let page = plot::report_html(&Page { summary, figures: &figures, equations, case_toml: case, notes: &[] });
+    let page = {
+        let (equations, notes) = (crate::equations(problem), [problem.title.clone()]);
+        plot::report_html(&Page { summary, figures: &figures, equations: &equations, case_toml: case, notes: &notes })
+    };
     write_whole(&place.join("report.html"), |to| to.write_all(page.as_bytes()))?;
     if !png {
         return Ok(Vec::new());
@@ -224,6 +228,6 @@ pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
     }
     let case = Case::parse(&summary.case, "case.toml", text.clone(), &[]).map_err(|error| wrong(error.to_string()))?;
     let problem = Problem::new(&case).map_err(|error| wrong(error.to_string()))?;
-    let figures = draw(folder, folder, &summary, profile.as_ref(), &crate::equations(&problem), &text, png)?;
+    let figures = draw(folder, folder, &summary, profile.as_ref(), &problem, &text, png)?;
     Ok(Written { summary, figures, kept: false })
 }

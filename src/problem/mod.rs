@@ -3,8 +3,9 @@
 mod bed;
 mod others;
 
-pub use bed::{Drive, LaminarBed};
-pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RoughWall};
+pub use crate::closures::regularisation::{Regularisation, Smoothing};
+pub use bed::{Drive, LaminarBed, RegularisedBed};
+pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;
@@ -35,6 +36,10 @@ pub enum Model {
     BagnoldFilm(GranularFilm),
     /// turbulent layer over a rough wall, closed form
     LogLaw(RoughWall),
+    /// laminar flow over a bed, numerically
+    Laminar(RegularisedBed),
+    /// Bingham fluid between two planes, numerically
+    Bingham(RegularisedPlane),
 }
 
 /// Faults found while comparing values with each other, by path.
@@ -73,11 +78,15 @@ impl Problem {
             Scene::Ouriemi(scene) => {
                 (bed::ouriemi(scene, case.model, &mut faults).map(Model::Ouriemi), scene.grid.cells)
             }
-            Scene::BinghamPlane(scene) => (others::bingham(scene).map(Model::BinghamPlane), scene.grid.cells),
+            Scene::BinghamPlane(scene) => (others::bingham_plane(scene).map(Model::BinghamPlane), scene.grid.cells),
             Scene::BagnoldFilm(scene) => {
                 (others::bagnold(scene, case.model, &mut faults).map(Model::BagnoldFilm), scene.grid.cells)
             }
             Scene::LogLaw(scene) => (others::log_law(scene, &mut faults).map(Model::LogLaw), scene.grid.cells),
+            Scene::Laminar(scene) => {
+                (bed::laminar(scene, case.model, &mut faults).map(Model::Laminar), scene.grid.cells)
+            }
+            Scene::Bingham(scene) => (others::bingham(scene, &mut faults).map(Model::Bingham), scene.grid.cells),
         };
         let mut faults: Vec<(String, Fault)> =
             faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();
@@ -98,7 +107,9 @@ impl Problem {
     #[must_use]
     pub fn model_name(&self) -> String {
         match &self.model {
-            Model::Ouriemi(bed) => format!("{}, {}", self.kind, bed.form_name()),
+            Model::Ouriemi(bed) | Model::Laminar(RegularisedBed { bed, .. }) => {
+                format!("{}, {}", self.kind, bed.form_name())
+            }
             _ => self.kind.to_owned(),
         }
     }

@@ -1,5 +1,7 @@
 //! What a solver hands back: an [`Outcome`], or a [`Failure`] that keeps the last good state.
 
+use serde_json::{Map, Value};
+
 use super::{Balance, Profile, Results, Series, Status, TableError, Validity};
 
 /// Everything that a run has to say, before it is written.
@@ -17,6 +19,8 @@ pub struct Outcome {
     pub balances: Vec<Balance>,
     /// closures that were used outside their range
     pub validity: Vec<Validity>,
+    /// every small number that the run used, by name
+    pub regularisation: Map<String, Value>,
 }
 
 /// Why a method failed, with the numbers that say so.
@@ -78,6 +82,14 @@ pub enum SolveError {
         /// upper end of the bracket
         high: f64,
     },
+    /// An iteration that does not reach round-off.
+    #[error("not converged: the relative residual is {residual:.3e} after {iterations} iterations")]
+    NotConverged {
+        /// relative residual
+        residual: f64,
+        /// iterations made
+        iterations: usize,
+    },
     /// A result that is not a finite number.
     #[error("{column} is not finite in row {row}")]
     NotFinite {
@@ -122,6 +134,7 @@ impl SolveError {
             Self::NoSteadyFilm { .. } => "no-steady-film",
             Self::OutOfReach { .. } => "out-of-reach",
             Self::NoRoot { .. } => "no-root",
+            Self::NotConverged { .. } => "not-converged",
             Self::NotFinite { .. } => "not-finite",
             Self::NotRepresentable { .. } => "not-representable",
             Self::Unbalanced { .. } => "unbalanced",
@@ -138,11 +151,11 @@ impl SolveError {
             }
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
-            Self::OutOfReach { .. } => "ask for less, or make the bed deeper".into(),
+            Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),
             Self::NotFinite { .. } | Self::NotRepresentable { .. } | Self::Unbalanced { .. } => {
                 "a value of the case is far from those of any flow: case.toml has all of them in SI".into()
             }
-            Self::NoRoot { .. } | Self::Inconsistent { .. } => {
+            Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {
                 "this should not happen for a checked case: please report it with case.toml".into()
             }
         }

@@ -21,7 +21,7 @@ pub struct Provenance {
     pub case_sha256: String,
     /// start of the run, UTC
     pub started_utc: String,
-    /// threads used
+    /// threads that the run may use
     pub threads: usize,
 }
 

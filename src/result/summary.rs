@@ -19,6 +19,17 @@ pub enum Status {
     Stopped,
 }
 
+impl std::fmt::Display for Status {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Running => "running",
+            Self::Done => "done",
+            Self::Failed => "failed",
+            Self::Stopped => "stopped",
+        })
+    }
+}
+
 /// A result: its value in SI, the standard error of a mean, and why it is missing where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Reported {
@@ -155,7 +166,7 @@ pub struct Summary {
     pub status: Status,
     /// name of the case
     pub case: String,
-    /// model in words: `exact/ouriemi (two-fluid)`
+    /// model in words: `exact/ouriemi, two-fluid`
     pub model: String,
     /// named numbers
     pub results: Results,

@@ -19,7 +19,7 @@ pub static INFO: Info = Info {
     law: "boyer",
     equation: "η_e = η (1 + 5/2 φ (1 - φ/φ_max)⁻¹)",
     source: "Boyer, Guazzelli & Pouliquen (2011); Revil-Baudard & Chauchat (2013), eq. (16)",
-    ranges: &[Range { variable: "phi", min: 0.0, max: 0.585 }],
+    ranges: &[Range { variable: "phi", min: 0.3, max: 0.585 }],
     standing: Standing::Experimental,
 };
 

@@ -90,9 +90,9 @@ pub fn run(film: &GranularFilm, cells: usize, watch: &mut dyn Watch) -> Result<O
             friction,
             "friction at the inertial number against the tangent of the slope",
         ));
-        // In x = sqrt(H - z) the velocity is a cubic, which the rule integrates exactly enough.
+        // In x = sqrt(H - z) the integrand is a quartic.
         let top = film.h.sqrt();
-        let integral = simpson(|x| 2.0 * x * solution.velocity(film.h - x * x), 0.0, top, 64);
+        let integral = simpson(|x| 2.0 * x * solution.velocity(film.h - x * x), 0.0, top, 2000);
         let how = "Simpson integral of the velocity against the closed form";
         balances.push(balance("transport_rate", integral / solution.discharge() - 1.0, how));
     }

@@ -24,8 +24,8 @@ use crate::units::significant;
 pub struct Solution {
     /// -dp/dx [Pa/m]
     pub gradient: f64,
-    /// distance from the centre to the yield surface [m]; H/2 where nothing moves
-    pub half_plug: f64,
+    /// 1 - x: share of the half-height that shears, 0 where nothing moves; kept instead of x for its digits at large Bn
+    y: f64,
     h: f64,
     eta: f64,
 }
@@ -37,26 +37,38 @@ impl Solution {
     /// [`SolveError::NoRoot`] if the gradient for a wanted mean velocity is not found.
     pub fn new(plane: &BinghamPlane, see: impl FnMut(f64)) -> Result<Self, SolveError> {
         let BinghamPlane { eta, tau_0, h, .. } = *plane;
-        let gradient = match plane.drive {
-            BinghamDrive::PressureGradient(gradient) => gradient,
+        match plane.drive {
+            BinghamDrive::PressureGradient(gradient) => {
+                let wall = 0.5 * gradient * h;
+                Ok(Self { gradient, y: ((wall - tau_0) / wall).max(0.0), h, eta })
+            }
             BinghamDrive::MeanVelocity(mean) => {
                 let bn = tau_0 * h / (eta * mean);
-                // Bn (1 - 3 x/2 + x^3/2) = 6 x, which has one root in [0, 1), by y = 1 - x to keep its digits at large Bn.
-                let residual = |y: f64| bn * y * y * (3.0 - y) / 2.0 - 6.0 * (1.0 - y);
-                let y = brent(|y| residual(y) / (6.0 + bn), 0.0, 1.0, see)
-                    .map_err(no_root("the plug for the wanted mean velocity"))?;
-                24.0 * eta * mean / (h * h * y * y * (3.0 - y))
+                // Bn (1 - 3 x/2 + x^3/2) = 6 x has one root in [0, 1)
+                let residual = |y: f64| (bn * y * y * (3.0 - y) / 2.0 - 6.0 * (1.0 - y)) / (6.0 + bn);
+                let y = brent(residual, 0.0, 1.0, see).map_err(no_root("the plug for the wanted mean velocity"))?;
+                Ok(Self { gradient: 24.0 * eta * mean / (h * h * y * y * (3.0 - y)), y, h, eta })
             }
-        };
-        Ok(Self { gradient, half_plug: (tau_0 / gradient).min(0.5 * h), h, eta })
+        }
+    }
+
+    /// Elevation [m] of the lower edge of the plug; 0 where nothing moves.
+    #[must_use]
+    pub fn edge(&self) -> f64 {
+        0.5 * self.y * self.h
+    }
+
+    /// Distance [m] from the centre to the yield surface.
+    #[must_use]
+    pub fn half_plug(&self) -> f64 {
+        0.5 * (1.0 - self.y) * self.h
     }
 
     /// Velocity [m/s] at z [m].
     #[must_use]
     pub fn velocity(&self, z: f64) -> f64 {
-        let edge = 0.5 * self.h - self.half_plug;
-        let depth = (edge - z.min(self.h - z)).max(0.0);
-        self.gradient / (2.0 * self.eta) * (edge * edge - depth * depth)
+        let wall = z.min(self.h - z).clamp(0.0, self.edge());
+        self.gradient / (2.0 * self.eta) * wall * (2.0 * self.edge() - wall)
     }
 
     /// Shear stress [Pa] at z [m].
@@ -68,14 +80,13 @@ impl Solution {
     /// Magnitude of the shear rate [1/s] at z [m].
     #[must_use]
     pub fn shear_rate(&self, z: f64) -> f64 {
-        self.gradient / self.eta * ((0.5 * self.h - z).abs() - self.half_plug).max(0.0)
+        self.gradient / self.eta * (self.edge() - z.min(self.h - z)).max(0.0)
     }
 
     /// Mean velocity [m/s].
     #[must_use]
     pub fn mean(&self) -> f64 {
-        let x = 2.0 * self.half_plug / self.h;
-        self.gradient * self.h * self.h / (12.0 * self.eta) * (1.0 - x) * (1.0 - x) * (2.0 + x) / 2.0
+        self.gradient * self.h * self.h / (24.0 * self.eta) * self.y * self.y * (3.0 - self.y)
     }
 }
 
@@ -86,20 +97,18 @@ impl Solution {
 pub fn run(plane: &BinghamPlane, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let mut history = Vec::new();
     let solution = Solution::new(plane, |r| history.push(r))?;
-    let edge = 0.5 * plane.h - solution.half_plug;
-    let sheared = if edge > 0.0 { cells / 3 } else { 0 };
-    let mut faces = graded(0.0, edge, sheared.max(1), f64::INFINITY);
-    faces.pop();
-    let mirrored: Vec<f64> = faces.iter().rev().map(|z| plane.h - z).collect();
-    if solution.half_plug > 0.0 {
-        faces.extend(graded(edge, plane.h - edge, cells - 2 * sheared, f64::INFINITY));
-        faces.pop();
-        faces.push(plane.h - edge);
-    } else {
-        faces.push(edge);
+    let (edge, upper) = (solution.edge(), plane.h - solution.edge());
+    let sheared = match (edge > 0.0, solution.half_plug() > 0.0) {
+        (true, true) => cells / 3,
+        (true, false) => cells / 2,
+        (false, _) => 0,
+    };
+    let mut faces = vec![0.0];
+    for (a, b, n) in [(0.0, edge, sheared), (edge, upper, cells - 2 * sheared), (upper, plane.h, sheared)] {
+        if b > a && n > 0 {
+            faces.extend(graded(a, b, n, f64::INFINITY).into_iter().skip(1));
+        }
     }
-    faces.extend(mirrored);
-    faces.dedup();
     let yielded = |z: f64| solution.stress(z).signum() * plane.tau_0;
     let columns: Vec<Column<'_>> = vec![
         (&q::U_MIXTURE, Box::new(|z| Some(solution.velocity(z)))),
@@ -116,8 +125,8 @@ pub fn run(plane: &BinghamPlane, cells: usize, watch: &mut dyn Watch) -> Result<
     let profile = tabulate(between_walls(&faces), &columns, watch)?;
     let mut balances = vec![];
     if edge > 0.0 {
-        let integral =
-            2.0 * simpson(|z| solution.velocity(z), 0.0, edge, 8) + 2.0 * solution.half_plug * solution.velocity(edge);
+        let integral = 2.0 * simpson(|z| solution.velocity(z), 0.0, edge, 8)
+            + 2.0 * solution.half_plug() * solution.velocity(edge);
         let how = "Simpson integral of the velocity against the closed form of the mean";
         balances.push(balance("discharge", integral / (solution.mean() * plane.h) - 1.0, how));
     }
@@ -133,7 +142,7 @@ fn results(plane: &BinghamPlane, solution: &Solution) -> Results {
     } else {
         results.undefined(&q::BINGHAM, "nothing moves: the stress at the walls does not exceed the yield stress");
     }
-    results.set(&q::HALF_PLUG, solution.half_plug);
+    results.set(&q::HALF_PLUG, solution.half_plug());
     results.set(&q::PLUG_VELOCITY, solution.velocity(0.5 * plane.h));
     results.set(&q::MEAN_VELOCITY, mean);
     results.set(&q::DISCHARGE, mean * plane.h);
@@ -215,7 +224,7 @@ mod tests {
     fn bingham_number_ten_on_the_mean() {
         let unit = BinghamPlane { rho: 1.0, eta: 1.0, tau_0: 10.0, h: 1.0, drive: BinghamDrive::MeanVelocity(1.0) };
         let solution = solve(&unit);
-        assert_relative_eq!(solution.half_plug, 0.253_635, epsilon = 5e-7);
+        assert_relative_eq!(solution.half_plug(), 0.253_635, epsilon = 5e-7);
         assert_relative_eq!(solution.velocity(0.5), 1.196_521, epsilon = 5e-7);
     }
 

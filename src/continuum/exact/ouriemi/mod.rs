@@ -27,6 +27,7 @@ mod outcome;
 #[cfg(test)]
 mod tests;
 
+pub(in crate::continuum) use outcome::viscosity_text;
 pub use outcome::{equations, run};
 
 use super::brinkman::Brinkman;
@@ -123,7 +124,7 @@ impl Scaled {
         })
     }
 
-    fn two_fluid(self, k: f64, mut see: impl FnMut(f64)) -> Result<Solution, SolveError> {
+    fn two_fluid(self, k: f64, see: impl FnMut(f64)) -> Result<Solution, SolveError> {
         let Self { f, hold, e, h_p, .. } = self;
         let d = 1.0 - h_p;
         let b = (hold - f) / e;
@@ -152,10 +153,9 @@ impl Scaled {
                 tau_interface: tau,
             });
         }
-        // The slope of a thin static layer grows without bound, so the residual is positive near the bottom.
-        let low = 1e-12 * h_p;
-        let h_c =
-            brent(residual, low, h_p, &mut see).map_err(no_root("no slip at the upper wall, for the yield level"))?;
+        // The slope K mu_s phi/h_c of a thin static layer grows without bound, so the residual is positive near the bottom.
+        let low = (0.5 * e * slip / (f * d)).min(0.5 * h_p);
+        let h_c = brent(residual, low, h_p, see).map_err(no_root("no slip at the upper wall, for the yield level"))?;
         let rest = layer(h_c, slip);
         let (s, y) = (rest.slope(h_c), h_p - h_c);
         Ok(Solution {
@@ -271,7 +271,7 @@ impl Solution {
 ///
 /// # Errors
 /// Those of [`Scaled::solve`], in SI; [`SolveError::OutOfReach`] if no drive gives the wanted Shields number.
-pub fn solve(bed: &LaminarBed, mut see: impl FnMut(f64)) -> Result<Solution, SolveError> {
+pub fn solve(bed: &LaminarBed, see: impl FnMut(f64)) -> Result<Solution, SolveError> {
     let weight = (bed.rho_p - bed.rho_f) * bed.g;
     let scaled = |f: f64| Scaled {
         f,
@@ -289,8 +289,10 @@ pub fn solve(bed: &LaminarBed, mut see: impl FnMut(f64)) -> Result<Solution, Sol
             if wanted > largest {
                 return Err(SolveError::OutOfReach { quantity: "shields", wanted, largest });
             }
-            brent(|f| shields(f).map_or(f64::NAN, |theta| theta / wanted - 1.0), low, high, &mut see)
-                .map_err(no_root("the drive for the wanted Shields number"))?
+            // The history is that of the drive: the searches inside it have other scales.
+            let f = brent(|f| shields(f).map_or(f64::NAN, |theta| theta / wanted - 1.0), low, high, see)
+                .map_err(no_root("the drive for the wanted Shields number"))?;
+            return scaled(f).solve(|_| {});
         }
     };
     scaled(f).solve(see).map_err(|error| match error {
