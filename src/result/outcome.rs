@@ -104,6 +104,18 @@ pub enum SolveError {
         /// result, balance or variable
         name: String,
     },
+    /// A global balance that does not close.
+    #[error(
+        "the balance {balance} is off by {relative:.3e} of its scale, more than {limit:.0e}: the numbers cannot be trusted"
+    )]
+    Unbalanced {
+        /// what is balanced
+        balance: String,
+        /// relative residual
+        relative: f64,
+        /// largest accepted magnitude
+        limit: f64,
+    },
     /// Columns of unequal length: a defect of the program.
     #[error("{column} has the wrong number of rows")]
     Inconsistent {
@@ -125,6 +137,7 @@ impl SolveError {
             Self::NotConverged { .. } => "not-converged",
             Self::NotFinite { .. } => "not-finite",
             Self::NotRepresentable { .. } => "not-representable",
+            Self::Unbalanced { .. } => "unbalanced",
             Self::Inconsistent { .. } => "inconsistent",
         }
     }
@@ -139,7 +152,7 @@ impl SolveError {
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
             Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),
-            Self::NotFinite { .. } | Self::NotRepresentable { .. } => {
+            Self::NotFinite { .. } | Self::NotRepresentable { .. } | Self::Unbalanced { .. } => {
                 "a value of the case is far from those of any flow: case.toml has all of them in SI".into()
             }
             Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {
@@ -160,20 +173,28 @@ impl From<TableError> for SolveError {
 }
 
 impl Outcome {
-    /// The outcome, if every number in it is one; else a failure that keeps those that are.
+    /// The outcome, if every number in it is one and its balances close to `limit`; else a failure that keeps what can be kept.
     ///
     /// # Errors
-    /// [`SolveError::NotRepresentable`] with the first result, balance or variable that is not finite.
-    pub fn finite(mut self) -> Result<Self, Failure> {
+    /// [`SolveError::NotRepresentable`] with the first result, balance or variable that is not finite,
+    /// [`SolveError::Unbalanced`] with the first balance that does not close.
+    pub fn trusted(mut self, limit: f64) -> Result<Self, Failure> {
         let results =
             self.results.iter().filter(|(_, reported)| reported.overflowed()).map(|(name, _)| name.to_owned());
         let balances =
             self.balances.iter().filter(|b| !b.relative.is_finite()).map(|b| format!("the balance {}", b.name));
         let variables = self.validity.iter().filter(|v| !v.value.is_finite()).map(|v| v.variable.clone());
-        let Some(name) = results.chain(balances).chain(variables).next() else { return Ok(self) };
+        let overflowed =
+            results.chain(balances).chain(variables).next().map(|name| SolveError::NotRepresentable { name });
+        let unbalanced = self.balances.iter().find(|b| b.relative.abs() > limit).map(|b| SolveError::Unbalanced {
+            balance: b.name.clone(),
+            relative: b.relative,
+            limit,
+        });
+        let Some(error) = overflowed.or(unbalanced) else { return Ok(self) };
         self.balances.retain(|b| b.relative.is_finite());
         self.validity.retain(|v| v.value.is_finite());
-        Err(Failure { error: SolveError::NotRepresentable { name }, last: Some(Box::new(self)) })
+        Err(Failure { error, last: Some(Box::new(self)) })
     }
 }
 
@@ -189,6 +210,15 @@ pub struct Failure {
 
 impl From<SolveError> for Failure {
     fn from(error: SolveError) -> Self {
+        // A search among numbers that are none says so.
+        let error = match error {
+            SolveError::NoRoot { equation, residual, low, high, .. }
+                if !(residual.is_finite() && low.is_finite() && high.is_finite()) =>
+            {
+                SolveError::NotRepresentable { name: equation.into() }
+            }
+            other => other,
+        };
         Self { error, last: None }
     }
 }

@@ -109,9 +109,12 @@ fn other_values_do_not_replace_a_run_unless_forced() {
     assert_eq!(scratch.names("."), ["out"]);
 }
 
+/// Something that a user does to a run folder.
+type Change = fn(&Scratch);
+
 #[test]
 fn what_bedload_did_not_write_is_never_replaced() {
-    let prepare: [(&str, fn(&Scratch)); 7] = [
+    let prepare: [(&str, Change); 7] = [
         ("notes.txt", |s| s.write("out/notes.txt", "mine")),
         ("figures/notes.txt", |s| {
             fs::create_dir_all(s.path("out/figures")).unwrap();

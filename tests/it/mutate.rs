@@ -175,6 +175,11 @@ fn act() -> impl Strategy<Value = Act> {
     ]
 }
 
+/// A change that leaves most cases valid.
+fn scale() -> impl Strategy<Value = Act> {
+    (any::<Index>(), -4..5).prop_map(|(i, power)| Act::Scale(i, power))
+}
+
 /// The lines that hold a value.
 fn values(lines: &[String]) -> Vec<usize> {
     let valued = |l: &String| l.contains(" = ") && !l.starts_with('#');
@@ -275,7 +280,9 @@ pub fn input() -> impl Strategy<Value = Input> {
     let pieces = vec(select(PIECES), 0..80).prop_map(|pieces| pieces.concat());
     let mutated =
         (shipped_text(), vec(act(), 1..5)).prop_map(|(text, acts)| acts.iter().fold(text, |text, act| act.on(&text)));
-    let text = prop_oneof![1 => bytes, 2 => pieces, 17 => mutated];
+    let scaled =
+        (shipped_text(), vec(scale(), 1..4)).prop_map(|(text, acts)| acts.iter().fold(text, |text, act| act.on(&text)));
+    let text = prop_oneof![1 => bytes, 2 => pieces, 12 => mutated, 5 => scaled];
     (text, prop_oneof![9 => Just(Vec::new()), 1 => vec(override_(), 1..3)])
         .prop_map(|(text, overrides)| Input { text, overrides })
 }

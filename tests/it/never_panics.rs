@@ -55,23 +55,22 @@ fn refusal_is_sound(error: &CaseError) -> Result<(), TestCaseError> {
     Ok(())
 }
 
-/// A solved case has finite numbers or says why not, ascending levels, and balances that hold.
-fn outcome_is_sound(outcome: &Outcome) -> Result<(), TestCaseError> {
+/// Numbers are finite or say why not, and levels ascend.
+fn numbers_are_sound(outcome: &Outcome) -> Result<(), TestCaseError> {
     for (name, reported) in outcome.results.iter() {
         let reason = reported.reason.as_deref().is_some_and(|said| !said.is_empty());
         require!(reported.value.map_or(reason, f64::is_finite), "{name}: {reported:?}");
     }
     for balance in &outcome.balances {
         require!(balance.relative.is_finite(), "{balance:?}");
-        require!(balance.relative.abs() < 1e-3, "{balance:?}");
     }
     for validity in &outcome.validity {
         require!(validity.value.is_finite() && validity.z_m.is_none_or(f64::is_finite), "{validity:?}");
     }
-    let Some(profile) = &outcome.profile else { return Err(TestCaseError::fail("done without a profile")) };
+    let Some(profile) = &outcome.profile else { return Err(TestCaseError::fail("no profile")) };
     let z = profile.axis();
-    require!(z.len() >= 10, "{} levels", z.len());
-    require!(z.windows(2).all(|pair| pair[0] <= pair[1]), "levels do not ascend");
+    // Levels of a layer that is thinner than round-off coincide.
+    require!(z.windows(2).all(|pair| pair[0] <= pair[1]), "levels do not ascend: {z:?}");
     for quantity in profile.quantities() {
         let finite = profile.get(quantity).into_iter().flatten().flatten().all(|x| x.is_finite());
         require!(finite, "{} is not finite", quantity.name);
@@ -122,20 +121,22 @@ fn hold(tally: &Tally, Input { text, overrides }: &Input) -> Result<(), TestCase
     let again = Case::parse("case", "case.toml", resolved.clone(), &[]);
     require!(again.is_ok_and(|again| again.resolved() == resolved), "does not resolve to itself:\n{resolved}");
     problem.cells = problem.cells.min(64);
-    require!(!bedload::equations(&problem).contains("NaN"), "NaN in the equations");
     match bedload::run(&problem, &mut Quiet) {
         Ok(outcome) => {
             count(&tally.solved);
-            outcome_is_sound(&outcome)?;
+            numbers_are_sound(&outcome)?;
             let overflowed = outcome.results.iter().find(|(_, reported)| reported.overflowed());
             require!(overflowed.is_none(), "done with {overflowed:?}");
+            let open = outcome.balances.iter().find(|b| b.relative.abs() > 1e-3);
+            require!(open.is_none(), "done with {open:?}");
+            require!(!bedload::equations(&problem).contains("NaN"), "NaN in the equations");
             if tally.solved.get() % 32 == 1 { page_is_sound(&problem, &case, &outcome) } else { Ok(()) }
         }
         Err(failure) => {
             count(&tally.failed);
             require!(!failure.error.code().is_empty() && !failure.error.hint().is_empty(), "{failure:?}");
             require!(!failure.to_string().contains("NaN"), "a failure without numbers: {failure}");
-            failure.last.as_deref().map_or(Ok(()), outcome_is_sound)
+            failure.last.as_deref().map_or(Ok(()), numbers_are_sound)
         }
     }
 }
