@@ -6,6 +6,7 @@
 //!
 //! The schema is generated from the structs in [`tables`], and the same schema checks the files, so the two cannot drift.
 
+pub mod checks;
 mod diagnose;
 mod document;
 mod fault;

@@ -5,10 +5,11 @@ use schemars::generate::SchemaSettings;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::checks::Check;
 use super::tables::{
-    About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamKindModel, BinghamModel, Check, Film, FilmClosures,
-    FilmFlow, Fluid, Grains, Grid, LaminarFlow, LaminarModel, LogLawModel, OuriemiModel, PlaneFlow,
-    RegularisationTable, WallClosures, WallFlow, YieldGrid,
+    About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamKindModel, BinghamModel, Film, FilmClosures, FilmFlow,
+    Fluid, Grains, Grid, LaminarFlow, LaminarModel, LogLawModel, OuriemiModel, PlaneFlow, RegularisationTable,
+    WallClosures, WallFlow, YieldGrid,
 };
 
 macro_rules! scenes {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::case::tables::{Check, CheckKind, Tier};
+use crate::case::checks::{Check, CheckKind, Tier};
 use crate::case::{CaseError, shipped};
 use crate::problem::Problem;
 use crate::result::{Failure, Outcome, Watch, quantity};
