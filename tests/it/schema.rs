@@ -52,10 +52,7 @@ fn committed_files_are_in_step() {
     {
         let wanted = scratch.bedload(arguments).exits(0).out;
         assert!(wanted.len() > 1000);
-        let Ok(committed) = fs::read_to_string(project(file)) else {
-            println!("skipped: there is no {file}");
-            continue;
-        };
+        let committed = fs::read_to_string(project(file)).unwrap_or_default();
         let command = format!("cargo run --release -- {} > {file}", arguments.join(" "));
         assert!(committed == wanted, "{file} is out of step; write it again: {command}");
     }
