@@ -4,6 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use super::comparison;
 use crate::result::{Status, Summary};
 
 /// Files that a run folder may hold; anything else in it is not ours.
@@ -22,6 +23,24 @@ pub enum OutputError {
         folder: PathBuf,
         /// what is not ours
         entry: String,
+    },
+    /// a run where a comparison should be, or the other way round
+    #[error("{} holds a {holds}, not a {wanted}", folder.display())]
+    OtherKind {
+        /// the folder
+        folder: PathBuf,
+        /// run or comparison
+        holds: &'static str,
+        /// run or comparison
+        wanted: &'static str,
+    },
+    /// a comparison with other arguments
+    #[error("{} holds another comparison: {of}", folder.display())]
+    OtherComparison {
+        /// the folder
+        folder: PathBuf,
+        /// its arguments
+        of: String,
     },
     /// a run of another case, or of this one with other values
     #[error("{} holds a run of {case} with other values", folder.display())]
@@ -72,6 +91,8 @@ impl OutputError {
         match self {
             Self::NotAFolder(_) => "not-a-folder",
             Self::Foreign { .. } => "foreign-folder",
+            Self::OtherKind { .. } => "other-kind",
+            Self::OtherComparison { .. } => "other-comparison",
             Self::OtherCase { .. } => "other-case",
             Self::Unfinished { .. } => "unfinished-run",
             Self::Unwritable { .. } => "unwritable",
@@ -87,6 +108,10 @@ impl OutputError {
             Self::NotAFolder(_) | Self::Unwritable { .. } => Some("give another folder with --out"),
             Self::Foreign { .. } => {
                 Some("give another folder with --out; --force does not replace what bedload did not write")
+            }
+            Self::OtherKind { .. } => Some("give another folder with --out; --force replaces only its own kind"),
+            Self::OtherComparison { .. } => {
+                Some("give another folder with --out, or --force to replace that comparison")
             }
             Self::OtherCase { .. } => Some("give another folder with --out, or --force to replace that run"),
             Self::Unfinished { .. } => Some("--resume to go on, --force to start again"),
@@ -130,6 +155,17 @@ impl Folder {
     /// # Errors
     /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
     pub fn prepare(target: &Path, case: &str, mode: Mode) -> Result<Self, OutputError> {
+        Self::claim(target, |folder| may_replace(folder, case, mode))
+    }
+
+    /// Prepares `target`, whose content `may_replace` judges where there is any.
+    ///
+    /// # Errors
+    /// As [`Folder::prepare`].
+    pub(super) fn claim(
+        target: &Path,
+        may_replace: impl FnOnce(&Path) -> Result<(), OutputError>,
+    ) -> Result<Self, OutputError> {
         let unwritable = |path: &Path| {
             let path = path.to_owned();
             move |error| OutputError::Unwritable { path, error }
@@ -147,7 +183,7 @@ impl Folder {
             }
             Some(false) => Self { target: target.into(), place: target.into(), created: false, finished: false },
             Some(true) => {
-                may_replace(target, case, mode)?;
+                may_replace(target)?;
                 let target = fs::canonicalize(target).map_err(unwritable(target))?;
                 let place = beside(&target, "new");
                 fs::create_dir(&place).map_err(unwritable(&place))?;
@@ -213,7 +249,7 @@ impl Drop for Folder {
         if self.created {
             let _ = fs::remove_dir_all(&self.place);
         } else {
-            for name in OURS {
+            for name in OURS.iter().chain(comparison::OURS) {
                 let path = self.place.join(name);
                 let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
             }
@@ -250,15 +286,11 @@ fn beside(path: &Path, what: &str) -> PathBuf {
 
 /// Whether a folder that is not empty may be replaced by a run of the resolved case `case`.
 fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<(), OutputError> {
-    let summary = read_summary(folder)?;
-    let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
-    for entry in fs::read_dir(folder).map_err(unwritable)? {
-        let name = entry.map_err(unwritable)?.file_name().to_string_lossy().into_owned();
-        let partial = name.starts_with('.') && name.contains(".part-");
-        if !OURS.contains(&name.as_str()) && !partial {
-            return Err(OutputError::Foreign { folder: folder.into(), entry: name });
-        }
+    if comparison::stands_in(folder) {
+        return Err(OutputError::OtherKind { folder: folder.into(), holds: "comparison", wanted: "run" });
     }
+    let summary = read_summary(folder)?;
+    holds_only(folder, OURS)?;
     let same = fs::read_to_string(folder.join("case.toml")).is_ok_and(|text| text == case);
     if mode.force {
         return Ok(());
@@ -271,8 +303,21 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<(), OutputError>
     }
 }
 
+/// Whether every entry of a folder is one of `ours` or a file that was being written.
+pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError> {
+    let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
+    for entry in fs::read_dir(folder).map_err(unwritable)? {
+        let name = entry.map_err(unwritable)?.file_name().to_string_lossy().into_owned();
+        let partial = name.starts_with('.') && name.contains(".part-");
+        if !ours.contains(&name.as_str()) && !partial {
+            return Err(OutputError::Foreign { folder: folder.into(), entry: name });
+        }
+    }
+    Ok(())
+}
+
 /// The summary of a run folder; anything that is not one is foreign.
-fn read_summary(folder: &Path) -> Result<Summary, OutputError> {
+pub(super) fn read_summary(folder: &Path) -> Result<Summary, OutputError> {
     let foreign = |entry: &str| OutputError::Foreign { folder: folder.into(), entry: entry.into() };
     let path = folder.join("summary.json");
     let text = fs::read_to_string(&path).map_err(|_| foreign("no summary.json"))?;
