@@ -2,20 +2,28 @@
 
 use crate::closures::{Info, drag::carman_kozeny, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
-use crate::problem::{Model, Problem};
+use crate::continuum::laminar;
+use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
+
+/// Relative residual of a balance from which on a closed form has lost its digits: its value is round-off otherwise.
+const LARGEST_IMBALANCE: f64 = 1e-3;
 
 /// Solves `problem`. `watch` sees the progress and may ask to stop; it cannot change the result.
 ///
 /// # Errors
-/// [`Failure`]: why the method failed, with the numbers that say so and the last good state.
+/// [`Failure`]: why the method failed, with the numbers that say so and the last good state. A result that is not a
+/// finite number is a failure, too, and so is a balance that does not close.
 pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
-    match &problem.model {
+    let outcome = match &problem.model {
         Model::Ouriemi(bed) => ouriemi::run(bed, problem.cells, watch),
         Model::BinghamPlane(plane) => bingham::run(plane, problem.cells, watch),
         Model::BagnoldFilm(film) => bagnold::run(film, problem.cells, watch),
         Model::LogLaw(wall) => log_law::run(wall, problem.cells, watch),
-    }
+        Model::Laminar(bed) => laminar::run(bed, problem.cells, watch),
+        Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
+    };
+    outcome?.trusted(LARGEST_IMBALANCE)
 }
 
 /// The equations that are solved, with the numbers of `problem` filled in.
@@ -26,6 +34,8 @@ pub fn equations(problem: &Problem) -> String {
         Model::BinghamPlane(plane) => bingham::equations(plane),
         Model::BagnoldFilm(film) => bagnold::equations(film),
         Model::LogLaw(wall) => log_law::equations(wall),
+        Model::Laminar(bed) => laminar::equations(bed),
+        Model::Bingham(plane) => laminar::bingham_equations(plane),
     }
 }
 
@@ -33,12 +43,13 @@ pub fn equations(problem: &Problem) -> String {
 #[must_use]
 pub fn closures(problem: &Problem) -> Vec<&'static Info> {
     match &problem.model {
-        Model::Ouriemi(bed) => {
-            let mut laws = vec![&friction::coulomb::INFO, bed.viscosity.info()];
+        Model::Ouriemi(bed) | Model::Laminar(RegularisedBed { bed, .. }) => {
+            let friction = if bed.rise.is_some() { &friction::mu_iv::INFO } else { &friction::coulomb::INFO };
+            let mut laws = vec![friction, bed.viscosity.info()];
             laws.extend(bed.drag.map(|_| &carman_kozeny::INFO));
             laws
         }
-        Model::BinghamPlane(_) => Vec::new(),
+        Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
         Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
         Model::LogLaw(_) => vec![&mixing_length::prandtl::INFO, &wall::rough::INFO],
     }

@@ -1,5 +1,4 @@
 //! Physical quantities as text: `"6 mm"`, `"0.05 m2/s"`, `"100 Pa/m"`, and back again.
-//!
 //! Inside the library every number is SI. A unit is a product of powers of SI symbols; decimal prefixes are
 //! kept as an exponent of ten and applied to the decimal text, so that `"6.5 mm"` is exactly the same `f64` as `6.5e-3`.
 

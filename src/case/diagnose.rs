@@ -5,23 +5,29 @@ use serde_json::{Map, Value, json};
 use super::document::{Data, Document, Node, Span};
 use super::fault::{Fault, Violation};
 use super::schema::{self, SCENES, SceneSchema};
+use super::wording::{choices, expected, header, shown};
 use crate::units;
 
-/// The document in plain SI, or what is wrong with it. The name of the scene comes with it.
-pub(super) fn diagnose(document: &Document) -> Result<(&'static str, Value), Vec<Violation>> {
+/// What a document says, and what is wrong with it.
+pub(super) struct Diagnosis {
+    /// name of the scene and the document in plain SI: complete if there are no violations
+    pub scene: Option<(&'static str, Value)>,
+    pub violations: Vec<Violation>,
+}
+
+/// Reads a document as the scene that it names.
+pub(super) fn diagnose(document: &Document) -> Diagnosis {
     let mut walk = Walk { scene: None, violations: Vec::new() };
     if matches!(&document.root.data, Data::Table(entries) if entries.is_empty()) {
         walk.report(Fault::Empty, "", &document.root.value);
-        return Err(walk.violations);
+        return Diagnosis { scene: None, violations: walk.violations };
     }
-    let scene = walk.choose(document);
-    let Some(scene) = scene else {
+    walk.scene = walk.choose(document);
+    let value = walk.scene.map(|scene| (scene.name, walk.value(&document.root, &scene.schema, "")));
+    if value.is_none() {
         walk.without_scene(document);
-        return Err(walk.violations);
-    };
-    walk.scene = Some(scene);
-    let value = walk.value(&document.root, &scene.schema, "");
-    if walk.violations.is_empty() { Ok((scene.name, value)) } else { Err(walk.violations) }
+    }
+    Diagnosis { scene: value, violations: walk.violations }
 }
 
 /// The name in `candidates` that `word` most likely stands for, if one is close.
@@ -82,7 +88,10 @@ impl Walk {
                 word: word.clone(),
                 allowed,
             },
-            Some(other) => Fault::WrongType { name: path.clone(), found: other.kind(), expected: allowed.join(", ") },
+            Some(other) => {
+                let expected = choices(allowed.iter().map(String::as_str));
+                Fault::WrongType { name: path.clone(), found: other.kind(), expected }
+            }
             None if document.node("model").is_none() => Fault::Missing {
                 what: "table",
                 name: "[model]".into(),
@@ -165,7 +174,7 @@ impl Walk {
                 self.report(fault, path, &node.value);
                 Value::Null
             }
-            _ => self.wrong(node, path, &allowed().join(", ")),
+            _ => self.wrong(node, path, &choices(constants.iter().map(|(c, _)| *c))),
         }
     }
 
@@ -187,12 +196,12 @@ impl Walk {
                 self.report(fault, &law_path, value);
             }
             Some(other) => {
-                self.wrong(other, &law_path, &laws.join(", "));
+                self.wrong(other, &law_path, &choices(laws));
             }
             None => {
                 let fault = Fault::Missing {
                     what: "key",
-                    name: format!("law in [{path}]"),
+                    name: format!("law in {}", header(path)),
                     description: "the law of the closure".into(),
                     allowed: laws.join(", "),
                 };
@@ -260,7 +269,7 @@ impl Walk {
             scene => Fault::Unknown {
                 what,
                 name: name.into(),
-                place: if path.is_empty() { String::new() } else { format!(" in [{path}]") },
+                place: if path.is_empty() { String::new() } else { format!(" in {}", header(path)) },
                 nearest: nearest(name, allowed.iter().map(String::as_str)),
                 elsewhere: scene.and_then(|s| elsewhere(&s.schema, name, path)),
                 allowed,
@@ -285,7 +294,7 @@ impl Walk {
             name: match (is_table, path) {
                 (true, _) => format!("[{name}]"),
                 (false, "") => name.into(),
-                (false, table) => format!("{name} in [{table}]"),
+                (false, table) => format!("{name} in {}", header(table)),
             },
             description: schema::text(schema, "description").into(),
             allowed,
@@ -312,7 +321,8 @@ impl Walk {
                     return Value::Null;
                 }
             },
-            _ => return self.wrong(node, path, &expected(schema)),
+            _ if unit.is_empty() => return self.wrong(node, path, &expected(schema)),
+            _ => return self.wrong(node, path, &format!("a number, {}", expected(schema))),
         };
         if !x.is_finite() {
             self.report(Fault::NotFinite { name: shown(path), allowed: schema::range(schema) }, path, &node.value);
@@ -324,45 +334,19 @@ impl Walk {
     }
 
     fn integer(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
-        let Data::Integer(i) = node.data else { return self.wrong(node, path, &expected(schema)) };
-        if !schema::inside(schema, i as f64) {
-            let fault = Fault::OutOfRange { name: shown(path), value: i as f64, allowed: schema::range(schema) };
+        let (i, value) = match node.data {
+            Data::Integer(i) => (i, i as f64),
+            // A whole number that is too large for one.
+            Data::Float(x) if x.is_finite() && x.abs() >= i64::MAX as f64 => (0, x),
+            _ => return self.wrong(node, path, &expected(schema)),
+        };
+        if !schema::inside(schema, value) {
+            let fault = Fault::OutOfRange { name: shown(path), value, allowed: schema::range(schema) };
             self.report(fault, path, &node.value);
             return Value::Null;
         }
         json!(i)
     }
-}
-
-/// What a value of this schema may be, in words.
-fn expected(schema: &Value) -> String {
-    if let Some(constants) = schema::constants(schema) {
-        return constants.iter().map(|(c, _)| *c).collect::<Vec<_>>().join(", ");
-    }
-    match schema::text(schema, "type") {
-        "number" if schema.get("x-unit").is_some() => schema::range(schema),
-        "number" => "a number".into(),
-        "integer" => format!("a whole number, {}", schema::range(schema)),
-        "string" => "a text".into(),
-        "object" => "a table".into(),
-        _ => schema::text(schema, "description").into(),
-    }
-}
-
-/// Path as shown to a reader: `check[0].expect`.
-fn shown(path: &str) -> String {
-    let mut text = String::new();
-    for segment in path.split('.') {
-        if segment.bytes().all(|b| b.is_ascii_digit()) {
-            text += &format!("[{segment}]");
-        } else {
-            if !text.is_empty() {
-                text.push('.');
-            }
-            text += segment;
-        }
-    }
-    text
 }
 
 fn join(path: &str, name: &str) -> String {

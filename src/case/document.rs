@@ -66,6 +66,8 @@ pub struct Text {
 pub struct Document {
     pub(super) texts: Vec<Text>,
     pub(super) root: Node,
+    /// offset of each line of the case file
+    lines: Vec<usize>,
 }
 
 impl Document {
@@ -81,7 +83,8 @@ impl Document {
         let faults = faults.collect();
         let whole = Span { text: 0, bytes: 0..0 };
         let root = Node { data: table_data(table.get_ref(), 0), key: whole.clone(), value: whole };
-        let document = Self { root, texts: vec![Text { name: name.into(), content }] };
+        let lines = std::iter::once(0).chain(content.match_indices('\n').map(|(i, _)| i + 1)).collect();
+        let document = Self { root, texts: vec![Text { name: name.into(), content }], lines };
         (document, faults)
     }
 
@@ -143,7 +146,7 @@ impl Document {
     #[must_use]
     pub fn line(&self, span: &Span) -> Option<usize> {
         let start = span.bytes.start.min(self.texts[0].content.len());
-        (span.text == 0).then(|| 1 + self.texts[0].content.as_bytes()[..start].iter().filter(|b| **b == b'\n').count())
+        (span.text == 0).then(|| self.lines.partition_point(|&line| line <= start))
     }
 }
 
@@ -160,7 +163,7 @@ fn node(value: &Spanned<DeValue<'_>>, key: Span, text: usize) -> Node {
     let data = match value.get_ref() {
         DeValue::String(s) => Data::Text(s.clone().into_owned()),
         DeValue::Integer(i) => i64::from_str_radix(i.as_str(), i.radix())
-            .map_or_else(|_| Data::Float(i.as_str().parse().unwrap_or(f64::NAN)), Data::Integer),
+            .map_or_else(|_| Data::Float(huge(i.as_str(), i.radix())), Data::Integer),
         DeValue::Float(f) => Data::Float(f.as_str().parse().unwrap_or(f64::NAN)),
         DeValue::Boolean(b) => Data::Boolean(*b),
         DeValue::Datetime(_) => Data::Date,
@@ -171,6 +174,15 @@ fn node(value: &Spanned<DeValue<'_>>, key: Span, text: usize) -> Node {
         DeValue::Table(table) => table_data(table, text),
     };
     Node { data, key, value: Span { text, bytes: value.span() } }
+}
+
+/// A whole number that no `i64` holds, as near as an `f64` comes.
+fn huge(text: &str, radix: u32) -> f64 {
+    if let (10, Ok(x)) = (radix, text.parse()) {
+        return x;
+    }
+    let digits = text.chars().filter_map(|c| c.to_digit(radix));
+    digits.fold(0.0, |sum, digit| sum * f64::from(radix) + f64::from(digit))
 }
 
 /// The value of an override: TOML if it reads as TOML, a text otherwise.

@@ -205,6 +205,14 @@ pub enum Fault {
         /// as given
         value: f64,
     },
+    /// A regularisation without a size, with two, or a size without a law.
+    #[error("{}", match (*given, *exact) { (0, _) => "the regularisation has no size", (_, true) => "the exact yield (law = \"none\") has no size", _ => "the regularisation has two sizes" })]
+    RegularisationSize {
+        /// sizes that were given
+        given: usize,
+        /// whether the law is `none`
+        exact: bool,
+    },
     /// A law that the model cannot hold.
     #[error("closures.{family} law \"{law}\" does not go with {model}")]
     LawMismatch {
@@ -275,6 +283,7 @@ impl Fault {
             Self::ThinnerThanAGrain { .. } => "thinner-than-a-grain",
             Self::FrictionFalls { .. } => "friction-falls",
             Self::TooSteep { .. } => "too-steep",
+            Self::RegularisationSize { .. } => "regularisation-size",
             Self::LawMismatch { .. } => "law-mismatch",
             Self::RoughnessAboveFlow { .. } => "roughness-above-flow",
             Self::UnknownQuantity { .. } => "unknown-quantity",
@@ -290,6 +299,9 @@ impl Fault {
             | Self::NotUsed { allowed, .. }
             | Self::UnknownWord { allowed, .. }
             | Self::Drives { allowed, .. } => Some(allowed.join(", ")),
+            Self::RegularisationSize { .. } => {
+                Some("one of lambda, lambda_scaled with a law; neither with law = \"none\"".into())
+            }
             Self::LawMismatch { allowed, .. } => Some(allowed.join(", ")),
             Self::Missing { allowed, .. } | Self::NotFinite { allowed, .. } | Self::OutOfRange { allowed, .. } => {
                 Some(allowed.clone())

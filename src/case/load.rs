@@ -1,13 +1,14 @@
 //! From a file, a shipped case or a text to a checked case.
 
+use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use super::diagnose::{diagnose, nearest};
+use super::diagnose::{Diagnosis, diagnose, nearest};
 use super::document::{Document, Span, Text};
 use super::fault::{Fault, Violation};
-use super::{Case, CaseError, shipped};
+use super::{Case, CaseError, Scene, shipped};
 
 /// Largest accepted case file [bytes].
 const LIMIT: u64 = 1 << 20;
@@ -40,26 +41,43 @@ impl Case {
     /// Every violation at once.
     pub fn parse(name: &str, source: &str, content: String, overrides: &[String]) -> Result<Self, CaseError> {
         let (mut document, mut violations) = Document::parse(source, content);
-        let broken: Vec<usize> = violations.iter().filter_map(|v| document.line(&v.spans[0])).collect();
+        let broken: BTreeSet<usize> = violations.iter().filter_map(|v| document.line(&v.spans[0])).collect();
         for argument in overrides {
             if let Err(violation) = document.set(argument) {
                 violations.push(violation);
             }
         }
-        match diagnose(&document) {
-            Ok((scene, value)) if violations.is_empty() => Self::build(name, source, scene, value, document, overrides),
-            Ok(_) => Err(CaseError { document, violations }),
-            Err(more) => {
-                // Where the syntax is broken, what is missing or mistyped may only be unreadable.
-                let unreadable = |v: &Violation| match &v.fault {
-                    Fault::Missing { .. } | Fault::Empty => true,
-                    Fault::Drives { given, .. } => given.is_empty(),
-                    _ => document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)),
-                };
-                let trusted = |v: &Violation| broken.is_empty() || !unreadable(v);
-                violations.extend(more.into_iter().filter(trusted));
-                Err(CaseError { document, violations })
+        let Diagnosis { scene, violations: more } = diagnose(&document);
+        let readable = violations.is_empty();
+        let sound = readable && more.is_empty();
+        // Where the syntax is broken, what is missing or mistyped may only be unreadable.
+        let unreadable = |v: &Violation| match &v.fault {
+            Fault::Missing { .. } | Fault::Empty => true,
+            Fault::Drives { given, .. } => given.is_empty(),
+            _ => document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)),
+        };
+        violations.extend(more.into_iter().filter(|v| broken.is_empty() || !unreadable(v)));
+        let built = scene.filter(|_| readable).map(|(model, value)| (model, Scene::build(model, value)));
+        let case = |model, scene, document| Self {
+            name: name.into(),
+            source: source.into(),
+            overrides: overrides.to_vec(),
+            model,
+            scene,
+            document,
+        };
+        match built {
+            Some((model, Ok(scene))) if sound => Ok(case(model, scene, document)),
+            Some((model, Ok(scene))) => {
+                let draft = Box::new(case(model, scene, document.clone()));
+                Err(CaseError { document, violations, draft: Some(draft) })
             }
+            Some((_, Err(error))) if sound => {
+                let fault = Fault::Syntax { message: error.to_string(), quoted: None };
+                let violation = Violation::new(fault, String::new(), document.root.value.clone());
+                Err(CaseError { document, violations: vec![violation], draft: None })
+            }
+            _ => Err(CaseError { document, violations, draft: None }),
         }
     }
 }
@@ -87,6 +105,7 @@ impl CaseError {
     fn without_text(name: &str, fault: Fault) -> Self {
         let (mut document, _) = Document::parse(name, String::new());
         document.texts = vec![Text { name: name.into(), content: String::new() }];
-        Self { document, violations: vec![Violation::new(fault, String::new(), Span { text: 0, bytes: 0..0 })] }
+        let violation = Violation::new(fault, String::new(), Span { text: 0, bytes: 0..0 });
+        Self { document, violations: vec![violation], draft: None }
     }
 }

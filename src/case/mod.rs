@@ -6,6 +6,7 @@
 //!
 //! The schema is generated from the structs in [`tables`], and the same schema checks the files, so the two cannot drift.
 
+pub mod checks;
 mod diagnose;
 mod document;
 mod fault;
@@ -16,11 +17,13 @@ pub mod scene;
 pub mod schema;
 pub mod shipped;
 pub mod tables;
+mod wording;
 
 pub use diagnose::nearest;
 pub use document::{Document, Span, Text};
 pub use fault::{Fault, Violation};
 pub use reference::reference;
+pub use render::printable;
 pub use scene::Scene;
 
 /// A case that its schema accepts: typed tables, and the text they came from.
@@ -46,6 +49,8 @@ pub struct CaseError {
     document: Document,
     /// what is wrong, in the order of the checks
     pub violations: Vec<Violation>,
+    /// the case as far as it could be read, if every value that it needs could be
+    draft: Option<Box<Case>>,
 }
 
 fn count(n: usize) -> String {
@@ -53,31 +58,6 @@ fn count(n: usize) -> String {
 }
 
 impl Case {
-    fn build(
-        name: &str,
-        source: &str,
-        model: &'static str,
-        value: serde_json::Value,
-        document: Document,
-        overrides: &[String],
-    ) -> Result<Self, CaseError> {
-        match Scene::build(model, value) {
-            Ok(scene) => Ok(Self {
-                name: name.into(),
-                source: source.into(),
-                overrides: overrides.to_vec(),
-                model,
-                scene,
-                document,
-            }),
-            Err(error) => {
-                let fault = Fault::Syntax { message: error.to_string(), quoted: None };
-                let violation = Violation::new(fault, String::new(), document.root.value.clone());
-                Err(CaseError { document, violations: vec![violation] })
-            }
-        }
-    }
-
     /// The case with every default filled in, in SI: equal texts are equal cases.
     #[must_use]
     pub fn resolved(&self) -> String {
@@ -94,6 +74,29 @@ impl Case {
                 Violation::new(fault, path, span)
             })
             .collect();
-        CaseError { document: self.document, violations }
+        CaseError { document: self.document, violations, draft: None }
+    }
+}
+
+impl CaseError {
+    /// The text that a span of a violation points into.
+    #[must_use]
+    pub fn text(&self, span: &Span) -> &Text {
+        self.document.text(span)
+    }
+
+    /// The case as far as it could be read, if every value that it needs could be: more may be wrong with it.
+    #[must_use]
+    pub fn draft(&self) -> Option<&Case> {
+        self.draft.as_deref()
+    }
+
+    /// Both errors of one case; where they point at the same value, the first one says enough.
+    #[must_use]
+    pub fn and(mut self, more: Self) -> Self {
+        let news = more.violations.into_iter().filter(|v| self.violations.iter().all(|known| known.path != v.path));
+        let news: Vec<Violation> = news.collect();
+        self.violations.extend(news);
+        self
     }
 }

@@ -13,6 +13,8 @@ use crate::result::ErrorReport;
 const SHOWN: usize = 40;
 /// Lines longer than this are cut around the place.
 const LONG: usize = 160;
+/// Messages longer than this [characters] lose their middle: a word of the file may be of any length.
+const LONG_MESSAGE: usize = 400;
 
 impl CaseError {
     /// All violations as text with carets, in colour if asked for.
@@ -38,7 +40,7 @@ impl CaseError {
     pub fn reports(&self) -> Vec<ErrorReport> {
         let report = |v: &Violation| ErrorReport {
             code: v.fault.code().into(),
-            message: printable(&v.fault.to_string()),
+            message: brief(&v.fault.to_string()),
             path: (!v.path.is_empty()).then(|| v.path.clone()),
             line: v
                 .spans
@@ -69,9 +71,9 @@ impl Shown {
         help.extend(fault.allowed().filter(|a| !a.is_empty()).map(|a| format!("allowed: {a}")));
         help.extend(fault.hint());
         let mut shown = Self {
-            message: printable(&fault.to_string()),
+            message: brief(&fault.to_string()),
             code: fault.code(),
-            help: (!help.is_empty()).then(|| printable(&help.join("\n"))),
+            help: (!help.is_empty()).then(|| brief(&help.join("\n"))),
             source: None,
             labels: Vec::new(),
         };
@@ -83,7 +85,7 @@ impl Shown {
         let content = printable(&text.content);
         let same_text = violation.spans.iter().filter(|s| s.text == main.text).map(|s| within(&content, &s.bytes));
         let spans: Vec<Range<usize>> = same_text.collect();
-        let (name, content, shift) = excerpt(&text.name, content, &spans[0]);
+        let (name, content, shift) = excerpt(&printable(&text.name), content, &spans[0]);
         shown.labels = spans
             .into_iter()
             .filter(|s| s.start >= shift && s.start - shift <= content.len())
@@ -97,8 +99,21 @@ impl Shown {
     }
 }
 
+/// A message without control characters and no longer than a person reads.
+fn brief(message: &str) -> String {
+    let message = printable(message);
+    let n = message.chars().count();
+    if n <= LONG_MESSAGE {
+        return message;
+    }
+    let head: String = message.chars().take(LONG_MESSAGE / 2).collect();
+    let tail: String = message.chars().skip(n - LONG_MESSAGE / 4).collect();
+    format!("{head} ... {tail}")
+}
+
 /// Control characters replaced byte for byte, so that no file can write to the terminal what it likes.
-fn printable(text: &str) -> String {
+#[must_use]
+pub fn printable(text: &str) -> String {
     let plain = |c: char| if c.is_control() && !matches!(c, '\n' | '\t') { '?' } else { c };
     // C1 controls are two bytes long: keep the offsets.
     text.chars()

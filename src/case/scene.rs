@@ -5,9 +5,11 @@ use schemars::generate::SchemaSettings;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use super::checks::Check;
 use super::tables::{
-    About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamModel, Check, Film, FilmClosures, FilmFlow, Fluid,
-    Grains, Grid, LaminarFlow, LogLawModel, OuriemiModel, PlaneFlow, WallClosures, WallFlow,
+    About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamKindModel, BinghamModel, Film, FilmClosures, FilmFlow,
+    Fluid, Grains, Grid, LaminarFlow, LaminarModel, LogLawModel, OuriemiModel, PlaneFlow, RegularisationTable,
+    WallClosures, WallFlow, YieldGrid,
 };
 
 macro_rules! scenes {
@@ -22,9 +24,6 @@ macro_rules! scenes {
                 /// What the case is about.
                 pub case: About,
                 $($(#[$attribute])* pub $table: $type,)*
-                /// Levels of the profile.
-                #[serde(default)]
-                pub grid: Grid,
                 /// Numbers that the case must give.
                 #[serde(default, skip_serializing_if = "Vec::is_empty")]
                 pub check: Vec<Check>,
@@ -85,6 +84,9 @@ scenes! {
         model: OuriemiModel,
         /// Laws.
         closures: BedClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
     }
     /// Bingham fluid between two planes, in closed form.
     BinghamPlane ("exact/bingham-plane") {
@@ -94,6 +96,9 @@ scenes! {
         flow: PlaneFlow,
         /// The model.
         model: BinghamModel,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
     }
     /// Dry grains down a slope, in closed form.
     BagnoldFilm ("exact/bagnold-film") {
@@ -107,6 +112,9 @@ scenes! {
         model: BagnoldModel,
         /// Laws.
         closures: FilmClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
     }
     /// Turbulent layer of constant stress over a rough wall, in closed form.
     LogLaw ("exact/log-law") {
@@ -118,6 +126,45 @@ scenes! {
         model: LogLawModel,
         /// Laws.
         closures: WallClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
+    }
+    /// Laminar flow over a bed of grains between two planes: regularised, or with the exact yield.
+    Laminar ("laminar") {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: Bed,
+        /// Geometry and drive.
+        flow: LaminarFlow,
+        /// The model.
+        model: LaminarModel,
+        /// Laws.
+        closures: BedClosures,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the solver.
+        #[serde(default)]
+        grid: YieldGrid,
+    }
+    /// Bingham fluid between two planes: regularised, or with the exact yield.
+    Bingham ("bingham") {
+        /// The material.
+        fluid: BinghamFluid,
+        /// Geometry and drive.
+        flow: PlaneFlow,
+        /// The model.
+        model: BinghamKindModel,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the solver.
+        #[serde(default)]
+        grid: YieldGrid,
     }
 }
 

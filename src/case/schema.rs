@@ -122,7 +122,7 @@ pub(super) fn drives(schema: &Value) -> Option<Vec<&str>> {
 /// The range of a number in words: `more than 0 and at most 2 kg/m3`.
 pub(super) fn range(schema: &Value) -> String {
     let bound = |keyword: &str| schema.get(keyword).and_then(Value::as_f64);
-    let number = |x: f64| if x.abs() >= 1e6 { format!("{x:e}") } else { x.to_string() };
+    let number = |x: f64| if x.abs() >= 1e7 { format!("{x:e}") } else { x.to_string() };
     let ends = [
         ("exclusiveMinimum", "more than"),
         ("minimum", "at least"),

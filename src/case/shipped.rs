@@ -8,12 +8,15 @@ macro_rules! shipped {
 
 /// Name and content of each shipped case; a test holds the list against the folder `cases/`.
 pub static CASES: &[(&str, &str)] = shipped![
+    "bingham_1d_plane",
     "exact_1d_aussillous",
     "exact_1d_bagnold",
     "exact_1d_bingham",
     "exact_1d_loglaw",
     "exact_1d_ouriemi",
     "exact_1d_ouriemi_mixed",
+    "laminar_1d_aussillous",
+    "laminar_1d_ouriemi",
 ];
 
 /// Content of the shipped case of that name.

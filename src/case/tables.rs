@@ -10,6 +10,7 @@ use crate::closures::drag::Drag;
 use crate::closures::friction::Friction;
 use crate::closures::mixing_length::MixingLength;
 use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::regularisation::Smoothing;
 use crate::closures::wall::Wall;
 
 /// What the case is about.
@@ -190,6 +191,60 @@ pub struct LogLawModel {
     pub solution: LogLawSolution,
 }
 
+/// The model: a laminar bed, solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LaminarModel {
+    /// What kind of model: a laminar flow over a bed.
+    pub kind: LaminarKind,
+    /// One velocity for fluid and grains, or two.
+    pub form: Form,
+}
+
+/// The model: a Bingham fluid between two planes, solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BinghamKindModel {
+    /// What kind of model: plane flow of a Bingham fluid.
+    pub kind: BinghamKind,
+}
+
+/// How the yield stress is smoothed, and by how much: a size for every law but `none`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RegularisationTable {
+    /// Law of the smoothing.
+    #[serde(default)]
+    pub law: Smoothing,
+    /// Size: shear rate below which the material creeps instead of standing still.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1/s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
+    pub lambda: Option<f64>,
+    /// Size in the model's unit of shear rate: (rho_p - rho_f) g H/eta for a bed; for a Bingham fluid U_m/H, or G H/eta where the gradient G is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub lambda_scaled: Option<f64>,
+}
+
+/// Cells of a solver.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct YieldGrid {
+    /// Number of cells.
+    #[serde(default = "cells")]
+    #[schemars(extend("minimum" = 8, "maximum" = 1_000_000))]
+    pub cells: usize,
+    /// Whether a node is placed on the yield level, where the solution has a corner.
+    #[serde(default = "yes")]
+    pub yield_node: bool,
+}
+
+impl Default for YieldGrid {
+    fn default() -> Self {
+        Self { cells: cells(), yield_node: true }
+    }
+}
+
+fn yes() -> bool {
+    true
+}
+
 macro_rules! only {
     ($(#[$doc:meta])* $name:ident, $variant:ident) => {
         $(#[$doc])*
@@ -206,6 +261,16 @@ only!(
     /// Closed forms.
     ExactKind,
     Exact
+);
+only!(
+    /// A laminar flow over a bed, solved numerically.
+    LaminarKind,
+    Laminar
+);
+only!(
+    /// Plane flow of a Bingham fluid, solved numerically.
+    BinghamKind,
+    Bingham
 );
 only!(
     /// Newtonian fluid over a Coulomb bed between two planes.
@@ -279,52 +344,6 @@ impl Default for Grid {
     fn default() -> Self {
         Self { cells: cells() }
     }
-}
-
-/// A number that the case must give: it makes the case its own test.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Check {
-    /// Key of a result in summary.json, or "profile." and the name of a column.
-    pub quantity: String,
-    /// Elevation at which a column is read, by linear interpolation; only with a column.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m"))]
-    pub at: Option<f64>,
-    /// The expected value, in SI.
-    pub expect: f64,
-    /// Largest accepted deviation relative to the expected value, such as 1e-3 or "0.1 %"; absolute where that is 0.
-    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1e6))]
-    pub tolerance: f64,
-    /// What kind of agreement this is.
-    pub kind: CheckKind,
-    /// Where the expected value comes from.
-    pub source: String,
-    /// When the row is run.
-    #[serde(default)]
-    pub tier: Tier,
-}
-
-/// What kind of agreement a check claims.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum CheckKind {
-    /// Against an exact or independently computed solution of the same equations.
-    Verification,
-    /// Against measurements or published results.
-    Validation,
-    /// A claim that is not reproduced: both numbers are shown, and the row is never red.
-    Finding,
-}
-
-/// When a check is run.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Tier {
-    /// With every test run.
-    #[default]
-    Quick,
-    /// By hand: it takes long.
-    Full,
 }
 
 fn standard_gravity() -> f64 {

@@ -210,7 +210,7 @@ fn solve(case: &Case, problem: &Problem, progress: &mut Progress) -> Result<Subj
         CliError::Failed(error, None)
     })?;
     if outcome.status == Status::Stopped {
-        return Err(CliError::Stopped(json!({ "status": Status::Stopped })));
+        return Err(CliError::Stopped(json!({ "status": Status::Stopped }), false));
     }
     let solve_s = solving.elapsed().as_secs_f64();
     Ok(Subject::of_case(&case.name, &case.source, problem.model_name(), outcome, solve_s)?)

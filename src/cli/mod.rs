@@ -18,7 +18,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 use serde_json::{Value, json};
 
-use crate::case::{Case, CaseError};
+use crate::case::{Case, CaseError, printable};
 use crate::compare::CompareError;
 use crate::output::OutputError;
 use crate::problem::Problem;
@@ -79,9 +79,7 @@ impl CaseArgs {
     }
 
     fn load(&self) -> Result<(Case, Problem), CliError> {
-        let case = Case::load(&self.case, &self.overrides)?;
-        let problem = Problem::new(&case)?;
-        Ok((case, problem))
+        Ok(Problem::load(&self.case, &self.overrides)?)
     }
 }
 
@@ -98,8 +96,8 @@ enum CliError {
     Failed(ErrorReport, Option<Value>),
     /// some rows of a validation are red: 3
     Red(usize),
-    /// stopped by the user: 4. The answer for `--json`
-    Stopped(Value),
+    /// stopped by the user: 4. The answer for `--json`, and whether the folder keeps an earlier run
+    Stopped(Value, bool),
     /// an argument that clap cannot judge: 2
     Usage { message: String, hint: String },
     /// standard output or a file: 1
@@ -206,7 +204,7 @@ impl CliError {
                 }
             }
             Self::Failed(..) | Self::Red(_) => 3,
-            Self::Stopped(_) => STOPPED as u8,
+            Self::Stopped(..) => STOPPED as u8,
             Self::Io(_) => 1,
             Self::Quiet(code) => *code,
         }
@@ -226,7 +224,7 @@ impl CliError {
             Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
             Self::Compare(error) => one(error.code(), error.to_string(), Some(error.hint())),
             Self::Failed(error, summary) => summary.unwrap_or_else(|| json!({ "status": "failed", "error": error })),
-            Self::Stopped(summary) => summary,
+            Self::Stopped(summary, _) => summary,
             Self::Usage { message, hint } => one("usage", message, Some(hint)),
             Self::Io(error) => one("io", error.to_string(), None),
             Self::Red(_) | Self::Quiet(_) => Value::Null,
@@ -235,28 +233,21 @@ impl CliError {
 
     fn explain(self) -> io::Result<()> {
         let mut to = io::stderr().lock();
-        match self {
-            Self::Case(error) => write!(to, "{}", error.render(colour()))?,
-            Self::Output(error) => {
-                writeln!(to, "error: {error}")?;
-                if let Some(hint) = error.hint() {
-                    writeln!(to, "  {hint}")?;
-                }
+        let (message, hint) = match self {
+            Self::Case(error) => return write!(to, "{}", error.render(colour())),
+            Self::Output(error) => (format!("error: {error}"), error.hint().map(str::to_owned)),
+            Self::Failed(error, _) => (format!("failed: {}", error.message), error.hint),
+            Self::Red(rows) => (format!("{rows} rows are red"), None),
+            Self::Stopped(_, kept) => {
+                ("stopped".into(), kept.then(|| "the finished run that the folder held is still there".into()))
             }
-            Self::Compare(error) => writeln!(to, "error: {error}\n  {}", error.hint())?,
-            Self::Failed(error, _) => {
-                writeln!(to, "failed: {}", error.message)?;
-                if let Some(hint) = error.hint {
-                    writeln!(to, "  {hint}")?;
-                }
-            }
-            Self::Red(rows) => writeln!(to, "{rows} rows are red")?,
-            Self::Stopped(_) => writeln!(to, "stopped")?,
-            Self::Usage { message, hint, .. } => writeln!(to, "error: {message}\n  {hint}")?,
-            Self::Io(error) => writeln!(to, "error: {error}")?,
-            Self::Quiet(_) => {}
-        }
-        Ok(())
+            Self::Compare(error) => (format!("error: {error}"), Some(error.hint())),
+            Self::Usage { message, hint, .. } => (format!("error: {message}"), Some(hint)),
+            Self::Io(error) => (format!("error: {error}"), None),
+            Self::Quiet(_) => return Ok(()),
+        };
+        let hint = hint.map(|hint| format!("  {hint}\n")).unwrap_or_default();
+        write!(to, "{}", printable(&format!("{message}\n{hint}")))
     }
 }
 
@@ -265,14 +256,16 @@ fn colour() -> bool {
     io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none()
 }
 
-/// Writes text to standard output.
+/// Writes text to standard output. Titles and names of files are not ours: they must not command the terminal.
 fn say(text: &str) -> io::Result<()> {
     let mut to = io::stdout().lock();
-    to.write_all(text.as_bytes())?;
+    to.write_all(printable(text).as_bytes())?;
     to.flush()
 }
 
 /// Writes one JSON object to standard output.
 fn answer(value: &Value) -> io::Result<()> {
-    say(&format!("{value:#}\n"))
+    // Control characters above 0x7e are legal in JSON as they are, and safer escaped.
+    let escaped = |c: char| if matches!(c, '\u{7f}'..='\u{9f}') { format!("\\u{:04x}", c as u32) } else { c.into() };
+    say(&format!("{value:#}\n").chars().map(escaped).collect::<String>())
 }

@@ -45,11 +45,12 @@ impl Run {
     pub(super) fn execute(self) -> Result<(), CliError> {
         let start = Instant::now();
         let (case, problem) = self.case.load()?;
+        // Listening begins before there is anything that Ctrl-C could leave half done.
+        let mut progress = Progress::new(self.quiet);
         let out = self.out.unwrap_or_else(|| PathBuf::from("runs").join(&case.name));
         let mode = Mode { force: self.force, resume: self.resume };
         let folder = Folder::prepare(&out, &case.resolved(), mode)?;
         let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
-        let mut progress = Progress::new(self.quiet);
         let solving = Instant::now();
         let result = crate::run(&problem, &mut progress);
         drop(progress);
@@ -70,7 +71,7 @@ impl Run {
         }
         match (written.summary.status, &written.summary.error) {
             (Status::Failed, Some(error)) => Err(CliError::Failed(error.clone(), Some(value))),
-            (Status::Stopped, _) => Err(CliError::Stopped(value)),
+            (Status::Stopped, _) => Err(CliError::Stopped(value, written.kept)),
             _ if self.json => Ok(answer(&value)?),
             _ if self.quiet => Ok(()),
             _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.as_typed()))?),
@@ -86,7 +87,7 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
     let value = |q: &'static quantity::Quantity| results.get(q.name).map(|x| readable(x, q.unit));
     if let Some(rate) = value(&quantity::TRANSPORT_RATE) {
         let star = value(&quantity::TRANSPORT_RATE_DIMENSIONLESS).map(|x| format!("  (Q* = {x})"));
-        line("transport rate", format!("{rate}{}  closed form, exact to round-off", star.unwrap_or_default()));
+        line("transport rate", format!("{rate}{}  {}", star.unwrap_or_default(), trust(&written.summary)));
     }
     for group in HEADLINES {
         let given: Vec<_> =
@@ -119,6 +120,16 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
         line("figures", format!("{out}/figures/"));
     }
     lines.join("\n") + "\n"
+}
+
+/// What the transport rate is worth.
+fn trust(summary: &Summary) -> String {
+    let lambda = summary.regularisation.get("lambda_scaled").and_then(Value::as_f64);
+    match (summary.results.get(quantity::REGULARISATION_RATE.name), lambda) {
+        (Some(error), _) => format!("{:+.2e} by the regularisation", error),
+        (None, Some(_)) => "exact yield".into(),
+        (None, None) => "closed form, exact to round-off".into(),
+    }
 }
 
 /// Numbers of the closing lines, a line each, named by the first.

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::progress::Progress;
 use super::{CliError, answer, say};
-use crate::case::tables::Tier;
+use crate::case::checks::Tier;
 use crate::units::significant;
 use crate::validate::{Row, Verdict, markdown, validate};
 

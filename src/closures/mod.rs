@@ -8,6 +8,7 @@ pub mod drag;
 pub mod friction;
 pub mod mixing_length;
 pub mod mixture_viscosity;
+pub mod regularisation;
 pub mod wall;
 
 /// How far a closure has been tested here.
@@ -71,6 +72,7 @@ pub struct Info {
 pub static CATALOGUE: &[&Info] = &[
     &friction::coulomb::INFO,
     &friction::mu_i::INFO,
+    &friction::mu_iv::INFO,
     &mixture_viscosity::clear::INFO,
     &mixture_viscosity::einstein::INFO,
     &mixture_viscosity::boyer::INFO,

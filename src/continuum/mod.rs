@@ -1,4 +1,5 @@
 //! Continuum models of the flow and of the bed.
 
+mod bed_results;
 pub mod exact;
 pub mod laminar;

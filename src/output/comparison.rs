@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::folder::{Folder, OutputError, holds_only, read_summary};
+use super::folder::{FIGURES, Folder, OutputError, holds_only, read_summary};
 use super::run::draw_png;
 use crate::compare::{Comparison, Request};
-use crate::result::{Cost, Provenance};
+use crate::result::{Cost, Provenance, Status};
 
 /// Files that the folder of a comparison may hold; anything else in it is not ours.
-pub(super) const OURS: &[&str] = &[RECORD, "norms.csv", "report.html", "figures"];
+pub(super) const OURS: &[&str] = &[RECORD, "norms.csv", "report.html", FIGURES];
 /// Everything that a comparison has to say; the folder is known by it.
 const RECORD: &str = "compare.json";
 
@@ -45,7 +45,7 @@ pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Resu
         };
         holds_only(folder, OURS)?;
         if force || record.request == *request {
-            return Ok(());
+            return Ok(Status::Done);
         }
         let Request { subjects, data, .. } = record.request;
         Err(OutputError::OtherComparison { folder: folder.into(), of: [subjects, data].concat().join(", ") })

@@ -8,7 +8,9 @@ use super::comparison;
 use crate::result::{Status, Summary};
 
 /// Files that a run folder may hold; anything else in it is not ours.
-const OURS: &[&str] = &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", "figures"];
+const OURS: &[&str] = &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES];
+/// The one folder in it, of figures as PNG.
+pub(super) const FIGURES: &str = "figures";
 
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]
@@ -145,7 +147,10 @@ pub struct Folder {
     target: PathBuf,
     /// where it is written: the target itself, or a folder beside it that replaces it in the end
     place: PathBuf,
-    created: bool,
+    /// what was made for it: the place, or the first of the folders above it that were not there
+    made: Option<PathBuf>,
+    /// whether a finished run stands in the target
+    over_finished: bool,
     finished: bool,
 }
 
@@ -158,13 +163,13 @@ impl Folder {
         Self::claim(target, |folder| may_replace(folder, case, mode))
     }
 
-    /// Prepares `target`, whose content `may_replace` judges where there is any.
+    /// Prepares `target`, whose content `may_replace` judges where there is any; it says in what state that is.
     ///
     /// # Errors
     /// As [`Folder::prepare`].
     pub(super) fn claim(
         target: &Path,
-        may_replace: impl FnOnce(&Path) -> Result<(), OutputError>,
+        may_replace: impl FnOnce(&Path) -> Result<Status, OutputError>,
     ) -> Result<Self, OutputError> {
         let unwritable = |path: &Path| {
             let path = path.to_owned();
@@ -178,22 +183,35 @@ impl Folder {
         };
         let folder = match occupied {
             None => {
+                let made = target.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists()).last();
+                let made = made.map(Path::to_owned);
+                let folder = Self::new(target.into(), target.into(), made, false);
                 fs::create_dir_all(target).map_err(unwritable(target))?;
-                Self { target: target.into(), place: target.into(), created: true, finished: false }
+                folder
             }
-            Some(false) => Self { target: target.into(), place: target.into(), created: false, finished: false },
+            Some(false) => Self::new(target.into(), target.into(), None, false),
             Some(true) => {
-                may_replace(target)?;
+                let status = may_replace(target)?;
                 let target = fs::canonicalize(target).map_err(unwritable(target))?;
                 let place = beside(&target, "new");
                 fs::create_dir(&place).map_err(unwritable(&place))?;
-                Self { target, place, created: true, finished: false }
+                Self::new(target, place.clone(), Some(place), status == Status::Done)
             }
         };
         // Whether files can be made here is known before anything is computed.
         let probe = folder.place.join(".probe");
         fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe)).map_err(unwritable(&folder.place))?;
         Ok(folder)
+    }
+
+    fn new(target: PathBuf, place: PathBuf, made: Option<PathBuf>, over_finished: bool) -> Self {
+        Self { target, place, made, over_finished, finished: false }
+    }
+
+    /// Whether a finished run stands where this one will be.
+    #[must_use]
+    pub fn over_finished(&self) -> bool {
+        self.over_finished
     }
 
     /// Where the run will be.
@@ -246,13 +264,17 @@ impl Drop for Folder {
             return;
         }
         // Nothing can be done about a failure here, and nothing but our own files is touched.
-        if self.created {
-            let _ = fs::remove_dir_all(&self.place);
-        } else {
+        let Some(made) = &self.made else {
             for name in OURS.iter().chain(comparison::OURS) {
                 let path = self.place.join(name);
                 let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
             }
+            return;
+        };
+        let _ = fs::remove_dir_all(&self.place);
+        for parent in self.place.ancestors().skip(1).take_while(|p| p.starts_with(made)) {
+            // Only folders that are empty go.
+            let _ = fs::remove_dir(parent);
         }
     }
 }
@@ -284,8 +306,8 @@ fn beside(path: &Path, what: &str) -> PathBuf {
     path.with_file_name(format!(".{name}.{what}-{}", std::process::id()))
 }
 
-/// Whether a folder that is not empty may be replaced by a run of the resolved case `case`.
-fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<(), OutputError> {
+/// Whether a folder that is not empty may be replaced by a run of the resolved case `case`; the state of the run in it.
+fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputError> {
     if comparison::stands_in(folder) {
         return Err(OutputError::OtherKind { folder: folder.into(), holds: "comparison", wanted: "run" });
     }
@@ -293,27 +315,42 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<(), OutputError>
     holds_only(folder, OURS)?;
     let same = fs::read_to_string(folder.join("case.toml")).is_ok_and(|text| text == case);
     if mode.force {
-        return Ok(());
+        return Ok(summary.status);
     }
     match (same, summary.status) {
-        (true, Status::Done) => Ok(()),
-        (true, _) if mode.resume => Ok(()),
+        (true, Status::Done) => Ok(Status::Done),
+        (true, status) if mode.resume => Ok(status),
         (true, status) => Err(OutputError::Unfinished { folder: folder.into(), status }),
         (false, _) => Err(OutputError::OtherCase { folder: folder.into(), case: summary.case }),
     }
 }
 
-/// Whether every entry of a folder is one of `ours` or a file that was being written.
+/// Whether every entry of a folder is one of `ours`, a figure, or a file that was being written.
 pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError> {
     let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
-    for entry in fs::read_dir(folder).map_err(unwritable)? {
-        let name = entry.map_err(unwritable)?.file_name().to_string_lossy().into_owned();
-        let partial = name.starts_with('.') && name.contains(".part-");
-        if !ours.contains(&name.as_str()) && !partial {
-            return Err(OutputError::Foreign { folder: folder.into(), entry: name });
+    let partial = |name: &str| name.starts_with('.') && name.contains(".part-");
+    let foreign = |entry: String| Err(OutputError::Foreign { folder: folder.into(), entry });
+    for (name, is_folder) in entries(folder).map_err(unwritable)? {
+        if is_folder != (name == FIGURES) || !(ours.contains(&name.as_str()) || partial(&name)) {
+            return foreign(name);
+        }
+    }
+    for (name, is_folder) in entries(&folder.join(FIGURES)).unwrap_or_default() {
+        if is_folder || !(name.ends_with(".png") || partial(&name)) {
+            return foreign(format!("{FIGURES}/{name}"));
         }
     }
     Ok(())
+}
+
+/// Name of each entry of a folder, and whether it is a folder.
+fn entries(folder: &Path) -> io::Result<Vec<(String, bool)>> {
+    fs::read_dir(folder)?
+        .map(|entry| {
+            let entry = entry?;
+            Ok((entry.file_name().to_string_lossy().into_owned(), entry.file_type()?.is_dir()))
+        })
+        .collect()
 }
 
 /// The summary of a run folder; anything that is not one is foreign.

@@ -3,6 +3,7 @@
 use std::fs;
 use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
+use std::process;
 
 use serde_json::Map;
 use sha2::{Digest, Sha256};
@@ -22,6 +23,8 @@ pub struct Written {
     pub summary: Summary,
     /// figures that were drawn as PNG
     pub figures: Vec<PathBuf>,
+    /// whether the folder still holds the finished run that it held before
+    pub kept: bool,
 }
 
 /// The summary of a run that has just begun.
@@ -113,13 +116,18 @@ fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
     summary.results = outcome.results.clone();
     summary.balances = outcome.balances.clone();
     summary.validity = outcome.validity.clone();
+    summary.regularisation = outcome.regularisation.clone();
     summary.cost = cost;
 }
 
 fn complete(folder: Folder, summary: Summary, figures: Vec<PathBuf>) -> Result<Written, OutputError> {
     write_summary(&folder, &summary)?;
-    folder.finish()?;
-    Ok(Written { summary, figures })
+    // Ctrl-C loses nothing: what is only begun does not replace what is done.
+    let kept = summary.status == Status::Stopped && folder.over_finished();
+    if !kept {
+        folder.finish()?;
+    }
+    Ok(Written { summary, figures, kept })
 }
 
 fn write_summary(folder: &Folder, summary: &Summary) -> Result<(), OutputError> {
@@ -190,9 +198,15 @@ pub(super) fn draw_png(place: &Path, shown: &Path, figures: &[Figure]) -> Result
         .iter()
         .map(|figure| {
             let name = format!("figures/{}.png", figure.stem);
-            let path = place.join(&name);
-            plot::png(figure, &path)
-                .map_err(|error| OutputError::Interrupted { path, error: io::Error::other(error) })?;
+            // Drawn beside and renamed, as every file: the ending tells the format.
+            let partial = folder.join(format!(".{}.part-{}.png", figure.stem, process::id()));
+            let drawn = plot::png(figure, &partial)
+                .map_err(io::Error::other)
+                .and_then(|()| fs::rename(&partial, place.join(&name)));
+            if let Err(error) = drawn {
+                let _ = fs::remove_file(&partial);
+                return Err(OutputError::Interrupted { path: place.join(&name), error });
+            }
             Ok(shown.join(&name))
         })
         .collect()
@@ -234,5 +248,5 @@ pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
     let case = Case::parse(&summary.case, "case.toml", text.clone(), &[]).map_err(|error| wrong(error.to_string()))?;
     let problem = Problem::new(&case).map_err(|error| wrong(error.to_string()))?;
     let figures = draw(folder, folder, &summary, profile.as_ref(), &problem, &text, png)?;
-    Ok(Written { summary, figures })
+    Ok(Written { summary, figures, kept: false })
 }

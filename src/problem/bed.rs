@@ -2,11 +2,12 @@
 
 use super::Faults;
 use crate::case::Fault;
-use crate::case::scene::Ouriemi;
-use crate::case::tables::Form;
+use crate::case::scene::{Laminar, Ouriemi};
+use crate::case::tables::{Bed, BedClosures, Fluid, Form, Grains, LaminarFlow, RegularisationTable};
 use crate::closures::drag::{self, CarmanKozeny, Drag};
-use crate::closures::friction::{self, Coulomb, Friction};
+use crate::closures::friction::{self, Coulomb, Friction, MuIv};
 use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::regularisation::{Regularisation, Smoothing};
 
 /// What drives the flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,8 +39,10 @@ pub struct LaminarBed {
     pub g: f64,
     /// what drives the flow
     pub drive: Drive,
-    /// friction of the grains
+    /// friction of the grains at vanishing shear rate
     pub friction: Coulomb,
+    /// rise of the friction with the viscous number; `None` for a constant friction
+    pub rise: Option<MuIv>,
     /// effective viscosity of the mixture
     pub viscosity: MixtureViscosity,
     /// drag between the phases: the two-fluid form; `None`: one velocity, the mixed form
@@ -66,8 +69,81 @@ impl LaminarBed {
     }
 }
 
+/// A laminar bed that is solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegularisedBed {
+    /// the bed
+    pub bed: LaminarBed,
+    /// how the yield stress is smoothed; lambda in units of (rho_p - rho_f) g H/eta
+    pub regularisation: Regularisation,
+    /// whether a node lies on the yield level
+    pub yield_node: bool,
+}
+
 pub(super) fn ouriemi(scene: &Ouriemi, model: &str, faults: &mut Faults) -> Option<LaminarBed> {
     let Ouriemi { fluid, grains, bed, flow, closures, .. } = scene;
+    laminar_bed((fluid, grains, bed, flow, closures), scene.model.form, model, &[friction::coulomb::INFO.law], faults)
+}
+
+pub(super) fn laminar(scene: &Laminar, model: &str, faults: &mut Faults) -> Option<RegularisedBed> {
+    let Laminar { fluid, grains, bed, flow, closures, grid, .. } = scene;
+    let laws = [friction::coulomb::INFO.law, friction::mu_iv::INFO.law];
+    let bed = laminar_bed((fluid, grains, bed, flow, closures), scene.model.form, model, &laws, faults);
+    let size = size(&scene.regularisation, faults);
+    let bed = bed?;
+    let lambda = size?.to_scaled(bed.velocity_scale() / bed.h);
+    let regularisation = Regularisation { law: scene.regularisation.law, lambda };
+    Some(RegularisedBed { bed, regularisation, yield_node: grid.yield_node })
+}
+
+/// The size of a regularisation, as it was given.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Size {
+    /// [1/s]
+    Rate(f64),
+    /// in the unit of the model
+    Scaled(f64),
+}
+
+impl Size {
+    /// In units of the shear rate `unit` [1/s].
+    pub(super) fn to_scaled(self, unit: f64) -> f64 {
+        match self {
+            Self::Rate(lambda) => lambda / unit,
+            Self::Scaled(lambda) => lambda,
+        }
+    }
+}
+
+/// The one size that a law needs; 0 for the exact yield.
+pub(super) fn size(table: &RegularisationTable, faults: &mut Faults) -> Option<Size> {
+    match (table.law, table.lambda, table.lambda_scaled) {
+        (Smoothing::None, None, None) => Some(Size::Scaled(0.0)),
+        (Smoothing::Simple | Smoothing::BercovierEngelman | Smoothing::Papanastasiou, Some(lambda), None) => {
+            Some(Size::Rate(lambda))
+        }
+        (Smoothing::Simple | Smoothing::BercovierEngelman | Smoothing::Papanastasiou, None, Some(lambda)) => {
+            Some(Size::Scaled(lambda))
+        }
+        (law, a, b) => {
+            let given = usize::from(a.is_some()) + usize::from(b.is_some());
+            faults.push(("regularisation", Fault::RegularisationSize { given, exact: law == Smoothing::None }));
+            None
+        }
+    }
+}
+
+/// The tables of a laminar bed.
+type Tables<'a> = (&'a Fluid, &'a Grains, &'a Bed, &'a LaminarFlow, &'a BedClosures);
+
+fn laminar_bed(
+    tables: Tables<'_>,
+    form: Form,
+    model: &str,
+    laws: &[&'static str],
+    faults: &mut Faults,
+) -> Option<LaminarBed> {
+    let (fluid, grains, bed, flow, closures) = tables;
     if bed.level >= flow.height {
         faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
     }
@@ -83,15 +159,20 @@ pub(super) fn ouriemi(scene: &Ouriemi, model: &str, faults: &mut Faults) -> Opti
         faults.push(("bed.phi", Fault::Jammed { phi: bed.phi, phi_max: law.phi_max }));
     }
     let mismatch = |family, law, model: String, allowed| Fault::LawMismatch { family, law, model, allowed };
-    let friction = match closures.friction {
-        Friction::Coulomb(law) => Some(law),
+    let (friction, rise) = match closures.friction {
+        Friction::Coulomb(law) if laws.contains(&friction::coulomb::INFO.law) => (Some(law), None),
+        Friction::MuIv(law) if laws.contains(&friction::mu_iv::INFO.law) => {
+            if law.mu_2 <= law.mu_s {
+                faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: law.mu_s, mu_2: law.mu_2 }));
+            }
+            (Some(Coulomb { mu_s: law.mu_s }), Some(law))
+        }
         other => {
-            let fault = mismatch("friction", other.law(), model.into(), vec![friction::coulomb::INFO.law]);
-            faults.push(("closures.friction.law", fault));
-            None
+            faults.push(("closures.friction.law", mismatch("friction", other.law(), model.into(), laws.to_vec())));
+            (None, None)
         }
     };
-    let drag = match (scene.model.form, closures.drag) {
+    let drag = match (form, closures.drag) {
         (Form::Mixed, Drag::None) => None,
         (Form::TwoFluid, Drag::CarmanKozeny(law)) => Some(law),
         (Form::Mixed, law) => {
@@ -123,6 +204,7 @@ pub(super) fn ouriemi(scene: &Ouriemi, model: &str, faults: &mut Faults) -> Opti
         g: flow.gravity,
         drive,
         friction: friction?,
+        rise,
         viscosity: closures.mixture_viscosity,
         drag,
     })

@@ -2,11 +2,10 @@
 
 mod bed;
 mod others;
-mod regularisation;
 
-pub use bed::{Drive, LaminarBed};
-pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RoughWall};
-pub use regularisation::{Regularisation, Smoothing};
+pub use crate::closures::regularisation::{Regularisation, Smoothing};
+pub use bed::{Drive, LaminarBed, RegularisedBed};
+pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;
@@ -37,12 +36,38 @@ pub enum Model {
     BagnoldFilm(GranularFilm),
     /// turbulent layer over a rough wall, closed form
     LogLaw(RoughWall),
+    /// laminar flow over a bed, numerically
+    Laminar(RegularisedBed),
+    /// Bingham fluid between two planes, numerically
+    Bingham(RegularisedPlane),
 }
 
 /// Faults found while comparing values with each other, by path.
 type Faults = Vec<(&'static str, Fault)>;
 
 impl Problem {
+    /// Loads a case, a file or a shipped one, and checks it whole: its text, and its values against each other.
+    ///
+    /// # Errors
+    /// Every violation of both kinds, as far as the values could be read.
+    pub fn load(name: &str, overrides: &[String]) -> Result<(Case, Self), CaseError> {
+        Self::check(Case::load(name, overrides))
+    }
+
+    /// Checks a case that was just read; one that is wrong already is checked as far as its values could be read.
+    ///
+    /// # Errors
+    /// Every violation.
+    pub fn check(case: Result<Case, CaseError>) -> Result<(Case, Self), CaseError> {
+        match case {
+            Ok(case) => Self::new(&case).map(|problem| (case, problem)),
+            Err(error) => Err(match error.draft().map(Self::new) {
+                Some(Err(more)) => error.and(more),
+                _ => error,
+            }),
+        }
+    }
+
     /// Checks what no schema can: values against each other, laws against the model, checks against the results.
     ///
     /// # Errors
@@ -53,11 +78,15 @@ impl Problem {
             Scene::Ouriemi(scene) => {
                 (bed::ouriemi(scene, case.model, &mut faults).map(Model::Ouriemi), scene.grid.cells)
             }
-            Scene::BinghamPlane(scene) => (others::bingham(scene).map(Model::BinghamPlane), scene.grid.cells),
+            Scene::BinghamPlane(scene) => (others::bingham_plane(scene).map(Model::BinghamPlane), scene.grid.cells),
             Scene::BagnoldFilm(scene) => {
                 (others::bagnold(scene, case.model, &mut faults).map(Model::BagnoldFilm), scene.grid.cells)
             }
             Scene::LogLaw(scene) => (others::log_law(scene, &mut faults).map(Model::LogLaw), scene.grid.cells),
+            Scene::Laminar(scene) => {
+                (bed::laminar(scene, case.model, &mut faults).map(Model::Laminar), scene.grid.cells)
+            }
+            Scene::Bingham(scene) => (others::bingham(scene, &mut faults).map(Model::Bingham), scene.grid.cells),
         };
         let mut faults: Vec<(String, Fault)> =
             faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();
@@ -78,7 +107,9 @@ impl Problem {
     #[must_use]
     pub fn model_name(&self) -> String {
         match &self.model {
-            Model::Ouriemi(bed) => format!("{}, {}", self.kind, bed.form_name()),
+            Model::Ouriemi(bed) | Model::Laminar(RegularisedBed { bed, .. }) => {
+                format!("{}, {}", self.kind, bed.form_name())
+            }
             _ => self.kind.to_owned(),
         }
     }

@@ -3,11 +3,14 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::Faults;
+use super::bed::size;
 use crate::case::Fault;
-use crate::case::scene::{BagnoldFilm, BinghamPlane as BinghamScene, LogLaw};
+use crate::case::scene::{BagnoldFilm, Bingham, BinghamPlane as BinghamScene, LogLaw};
 use crate::case::tables::SlopeDefinition;
+use crate::case::tables::{BinghamFluid, PlaneFlow};
 use crate::closures::friction::{self, Friction, MuI};
 use crate::closures::mixing_length::{MixingLength, Prandtl};
+use crate::closures::regularisation::Regularisation;
 use crate::closures::wall::{Rough, Wall};
 
 /// What drives the Bingham fluid.
@@ -70,8 +73,40 @@ pub struct RoughWall {
     pub wall: Rough,
 }
 
-pub(super) fn bingham(scene: &BinghamScene) -> Option<BinghamPlane> {
-    let BinghamScene { fluid, flow, .. } = scene;
+/// A Bingham fluid that is solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegularisedPlane {
+    /// the flow
+    pub plane: BinghamPlane,
+    /// how the yield stress is smoothed; lambda in units of [`BinghamPlane::shear_scale`]
+    pub regularisation: Regularisation,
+    /// whether nodes lie on the edges of the plug
+    pub yield_node: bool,
+}
+
+impl BinghamPlane {
+    /// Unit of the shear rate [1/s]: U_m/H where the mean velocity is given, G H/eta where the gradient is.
+    #[must_use]
+    pub fn shear_scale(&self) -> f64 {
+        match self.drive {
+            BinghamDrive::PressureGradient(gradient) => gradient * self.h / self.eta,
+            BinghamDrive::MeanVelocity(mean) => mean / self.h,
+        }
+    }
+}
+
+pub(super) fn bingham_plane(scene: &BinghamScene) -> Option<BinghamPlane> {
+    plane(&scene.fluid, &scene.flow)
+}
+
+pub(super) fn bingham(scene: &Bingham, faults: &mut Faults) -> Option<RegularisedPlane> {
+    let size = size(&scene.regularisation, faults);
+    let plane = plane(&scene.fluid, &scene.flow)?;
+    let regularisation = Regularisation { law: scene.regularisation.law, lambda: size?.to_scaled(plane.shear_scale()) };
+    Some(RegularisedPlane { plane, regularisation, yield_node: scene.grid.yield_node })
+}
+
+fn plane(fluid: &BinghamFluid, flow: &PlaneFlow) -> Option<BinghamPlane> {
     let drive = match (flow.pressure_gradient, flow.mean_velocity) {
         (Some(gradient), _) => BinghamDrive::PressureGradient(gradient),
         (None, Some(mean)) => BinghamDrive::MeanVelocity(mean),

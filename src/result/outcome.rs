@@ -1,5 +1,7 @@
 //! What a solver hands back: an [`Outcome`], or a [`Failure`] that keeps the last good state.
 
+use serde_json::{Map, Value};
+
 use super::{Balance, Profile, Results, Series, Status, TableError, Validity};
 
 /// Everything that a run has to say, before it is written.
@@ -17,6 +19,8 @@ pub struct Outcome {
     pub balances: Vec<Balance>,
     /// closures that were used outside their range
     pub validity: Vec<Validity>,
+    /// every small number that the run used, by name
+    pub regularisation: Map<String, Value>,
 }
 
 /// Why a method failed, with the numbers that say so.
@@ -94,6 +98,24 @@ pub enum SolveError {
         /// row, from 0
         row: usize,
     },
+    /// A number or a balance that leaves the range of floating-point numbers.
+    #[error("{name} cannot be computed: a number on the way is larger or smaller than any that the machine has")]
+    NotRepresentable {
+        /// result, balance or variable
+        name: String,
+    },
+    /// A global balance that does not close.
+    #[error(
+        "the balance {balance} is off by {relative:.3e} of its scale, more than {limit:.0e}: the numbers cannot be trusted"
+    )]
+    Unbalanced {
+        /// what is balanced
+        balance: String,
+        /// relative residual
+        relative: f64,
+        /// largest accepted magnitude
+        limit: f64,
+    },
     /// Columns of unequal length: a defect of the program.
     #[error("{column} has the wrong number of rows")]
     Inconsistent {
@@ -114,6 +136,8 @@ impl SolveError {
             Self::NoRoot { .. } => "no-root",
             Self::NotConverged { .. } => "not-converged",
             Self::NotFinite { .. } => "not-finite",
+            Self::NotRepresentable { .. } => "not-representable",
+            Self::Unbalanced { .. } => "unbalanced",
             Self::Inconsistent { .. } => "inconsistent",
         }
     }
@@ -128,7 +152,10 @@ impl SolveError {
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
             Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),
-            Self::NoRoot { .. } | Self::NotConverged { .. } | Self::NotFinite { .. } | Self::Inconsistent { .. } => {
+            Self::NotFinite { .. } | Self::NotRepresentable { .. } | Self::Unbalanced { .. } => {
+                "a value of the case is far from those of any flow: case.toml has all of them in SI".into()
+            }
+            Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {
                 "this should not happen for a checked case: please report it with case.toml".into()
             }
         }
@@ -145,6 +172,32 @@ impl From<TableError> for SolveError {
     }
 }
 
+impl Outcome {
+    /// The outcome, if every number in it is one and its balances close to `limit`; else a failure that keeps what can be kept.
+    ///
+    /// # Errors
+    /// [`SolveError::NotRepresentable`] with the first result, balance or variable that is not finite,
+    /// [`SolveError::Unbalanced`] with the first balance that does not close.
+    pub fn trusted(mut self, limit: f64) -> Result<Self, Failure> {
+        let results =
+            self.results.iter().filter(|(_, reported)| reported.overflowed()).map(|(name, _)| name.to_owned());
+        let balances =
+            self.balances.iter().filter(|b| !b.relative.is_finite()).map(|b| format!("the balance {}", b.name));
+        let variables = self.validity.iter().filter(|v| !v.value.is_finite()).map(|v| v.variable.clone());
+        let overflowed =
+            results.chain(balances).chain(variables).next().map(|name| SolveError::NotRepresentable { name });
+        let unbalanced = self.balances.iter().find(|b| b.relative.abs() > limit).map(|b| SolveError::Unbalanced {
+            balance: b.name.clone(),
+            relative: b.relative,
+            limit,
+        });
+        let Some(error) = overflowed.or(unbalanced) else { return Ok(self) };
+        self.balances.retain(|b| b.relative.is_finite());
+        self.validity.retain(|v| v.value.is_finite());
+        Err(Failure { error, last: Some(Box::new(self)) })
+    }
+}
+
 /// A failed run: the reason, and the last good state if there is one.
 #[derive(Clone, Debug, thiserror::Error)]
 #[error("{error}")]
@@ -157,6 +210,15 @@ pub struct Failure {
 
 impl From<SolveError> for Failure {
     fn from(error: SolveError) -> Self {
+        // A search among numbers that are none says so.
+        let error = match error {
+            SolveError::NoRoot { equation, residual, low, high, .. }
+                if !(residual.is_finite() && low.is_finite() && high.is_finite()) =>
+            {
+                SolveError::NotRepresentable { name: equation.into() }
+            }
+            other => other,
+        };
         Self { error, last: None }
     }
 }

@@ -82,6 +82,8 @@ catalogue! {
     ROUGHNESS_LENGTH = "roughness_length_m", "roughness length", "z_0", "m", "elevation at which the logarithmic profile vanishes, k_s/30";
     REYNOLDS_ROUGHNESS = "roughness_reynolds", "roughness Reynolds number", "k_s+", "1", "u_* k_s/ν";
     REYNOLDS_PARTICLE = "particle_reynolds", "particle Reynolds number", "Re_p", "1", "ρ_f |u_f - u_p| d/η with the largest slip between the phases, or |du_p/dz| d where the phases move together";
+    REGULARISATION_RATE = "regularisation_error_transport_rate", "error of the transport rate by the regularisation", "Δq_p/q_p", "1", "transport rate minus that of the exact yield on the same mesh, relative to it";
+    REGULARISATION_VELOCITY = "regularisation_error_velocity", "error of the velocity by the regularisation", "|ΔU|/|U|", "1", "relative L2 norm over the nodes of the velocity minus that of the exact yield on the same mesh";
     REYNOLDS = "reynolds", "Reynolds number", "Re", "1", "ρ_f U_m H/η";
 }
 

@@ -43,6 +43,17 @@ pub struct Reported {
     pub reason: Option<String>,
 }
 
+/// Why a computed value is missing.
+const OVERFLOWED: &str = "not finite";
+
+impl Reported {
+    /// Whether it was computed and is not a finite number.
+    #[must_use]
+    pub fn overflowed(&self) -> bool {
+        self.value.is_none() && self.reason.as_deref() == Some(OVERFLOWED)
+    }
+}
+
 /// Results by catalogued name, in the order in which they were reported.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Results(Vec<(String, Reported)>);
@@ -53,7 +64,7 @@ impl Results {
         if value.is_finite() {
             self.0.push((quantity.name.into(), Reported { value: Some(value), stderr: None, reason: None }));
         } else {
-            self.undefined(quantity, "not finite");
+            self.undefined(quantity, OVERFLOWED);
         }
     }
 

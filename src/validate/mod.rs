@@ -2,8 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::case::tables::{Check, CheckKind, Tier};
-use crate::case::{Case, CaseError, shipped};
+use crate::case::checks::{Check, CheckKind, Tier};
+use crate::case::{CaseError, shipped};
 use crate::problem::Problem;
 use crate::result::{Failure, Outcome, Watch, quantity};
 use crate::units::significant;
@@ -73,8 +73,7 @@ pub fn validate(cases: &[String], tier: Tier, watch: &mut dyn Watch) -> Result<V
         if cases.is_empty() { shipped::names().map(str::to_owned).collect() } else { cases.to_vec() };
     let mut rows = Vec::new();
     for name in &names {
-        let case = Case::load(name, &[]).map_err(Box::new)?;
-        let problem = Problem::new(&case).map_err(Box::new)?;
+        let (case, problem) = Problem::load(name, &[]).map_err(Box::new)?;
         let wanted = |check: &&Check| check.tier == Tier::Quick || tier == Tier::Full;
         if case.scene.checks().iter().filter(wanted).count() == 0 {
             continue;

@@ -2,12 +2,14 @@
 
 pub mod coulomb;
 pub mod mu_i;
+pub mod mu_iv;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use coulomb::Coulomb;
 pub use mu_i::MuI;
+pub use mu_iv::MuIv;
 
 /// Friction law of the granular phase.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -17,6 +19,8 @@ pub enum Friction {
     Coulomb(Coulomb),
     /// Friction that grows with the inertial number.
     MuI(MuI),
+    /// Friction that grows with the viscous number.
+    MuIv(MuIv),
 }
 
 impl Friction {
@@ -26,6 +30,7 @@ impl Friction {
         match self {
             Self::Coulomb(_) => coulomb::INFO.law,
             Self::MuI(_) => mu_i::INFO.law,
+            Self::MuIv(_) => mu_iv::INFO.law,
         }
     }
 }

@@ -8,7 +8,9 @@ pub mod ouriemi;
 
 use std::ops::ControlFlow;
 
-use crate::closures::{Info, Range};
+use serde_json::Map;
+
+use super::bed_results::{closure_name, outside};
 use crate::numerics::root::NoRoot;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch,
@@ -19,10 +21,10 @@ use crate::result::{
 const BETWEEN_LOOKS: usize = 512;
 
 /// A column of the profile: its quantity and its value at an elevation [m].
-type Column<'a> = (&'static Quantity, Box<dyn Fn(f64) -> Option<f64> + 'a>);
+pub(super) type Column<'a> = (&'static Quantity, Box<dyn Fn(f64) -> Option<f64> + 'a>);
 
 /// Evaluates `columns` at the levels `z` [m]. `None` if the watch asked to stop.
-fn tabulate(z: Vec<f64>, columns: &[Column<'_>], watch: &mut dyn Watch) -> Result<Option<Profile>, Failure> {
+pub(super) fn tabulate(z: Vec<f64>, columns: &[Column<'_>], watch: &mut dyn Watch) -> Result<Option<Profile>, Failure> {
     let mut values: Vec<Vec<Option<f64>>> = columns.iter().map(|_| Vec::with_capacity(z.len())).collect();
     for (i, &level) in z.iter().enumerate() {
         if i % BETWEEN_LOOKS == 0 {
@@ -43,7 +45,7 @@ fn tabulate(z: Vec<f64>, columns: &[Column<'_>], watch: &mut dyn Watch) -> Resul
 }
 
 /// The outcome of a closed form; stopped if there is no profile.
-fn outcome(
+pub(super) fn outcome(
     profile: Option<Profile>,
     history: Vec<f64>,
     results: Results,
@@ -52,7 +54,7 @@ fn outcome(
 ) -> Result<Outcome, Failure> {
     let series = if history.is_empty() { None } else { Some(residuals(history)?) };
     let status = if profile.is_some() { Status::Done } else { Status::Stopped };
-    Ok(Outcome { status, profile, series, results, balances, validity })
+    Ok(Outcome { status, profile, series, results, balances, validity, regularisation: Map::new() })
 }
 
 /// The residual history of a root finder.
@@ -62,26 +64,11 @@ fn residuals(history: Vec<f64>) -> Result<Series, Failure> {
     Ok(series)
 }
 
-fn balance(name: &str, relative: f64, how: &str) -> Balance {
+pub(super) fn balance(name: &str, relative: f64, how: &str) -> Balance {
     Balance { name: name.into(), relative, how: how.into() }
 }
 
-/// Says so if `value` is outside `range`.
-fn outside(closure: String, range: &Range, value: f64) -> Option<Validity> {
-    (!range.contains(value)).then(|| Validity {
-        closure,
-        variable: range.variable.into(),
-        value,
-        range: range.to_string(),
-        z_m: None,
-    })
-}
-
-fn closure_name(info: &Info) -> String {
-    format!("{}/{}", info.family, info.law)
-}
-
-fn no_root(equation: &'static str) -> impl Fn(NoRoot) -> SolveError {
+pub(super) fn no_root(equation: &'static str) -> impl Fn(NoRoot) -> SolveError {
     move |NoRoot { low, high, residual, evaluations }| SolveError::NoRoot {
         equation,
         iterations: evaluations,

@@ -3,6 +3,8 @@
 use super::element::{Element, Rise};
 use super::mesh::{Layer, Mesh};
 use super::{single, two_fluid};
+use crate::closures::friction::MuIv;
+use crate::continuum::exact::ouriemi::Scaled;
 use crate::numerics::root::brent;
 use crate::problem::Regularisation;
 use crate::result::SolveError;
@@ -18,8 +20,8 @@ pub struct Bed {
     pub phi: f64,
     /// friction at vanishing shear rate
     pub mu_s: f64,
-    /// mu_2 - mu_s and I_0 of mu(I_v)
-    pub rise: Option<(f64, f64)>,
+    /// mu(I_v), if the friction rises with the shear rate
+    pub rise: Option<MuIv>,
     /// relative viscosity of the bed
     pub e: f64,
     /// permeability; `None`: one velocity
@@ -52,11 +54,21 @@ pub struct Solution {
     pub tau_f: Vec<f64>,
     /// stress of the grains, by element of the bed
     pub tau_p: Vec<f64>,
+    /// integral of U - w over the bed
+    pub slip: f64,
     /// residuals, one per iteration
     pub history: Vec<f64>,
 }
 
 impl Bed {
+    /// Largest drive with a static layer: that of the closed form for Coulomb friction with one velocity, mu_s phi otherwise.
+    #[must_use]
+    pub fn largest_drive(&self) -> f64 {
+        let hold = self.mu_s * self.phi;
+        let k = if self.rise.is_some() { Some(0.0) } else { self.k };
+        Scaled { f: self.f, hold, e: self.e, h_p: self.h_p, k }.largest_drive()
+    }
+
     /// Particle pressure at `z`.
     #[must_use]
     pub fn pressure(&self, z: f64) -> f64 {
@@ -83,7 +95,7 @@ impl Bed {
     }
 
     fn elements(&self, mesh: &Mesh) -> Vec<Element> {
-        let rise = |p: f64| self.rise.map(|(mu, i_0)| Rise { p, mu, i_0 });
+        let rise = |p: f64| self.rise.map(|law| Rise { p, law });
         let element = |k: usize| {
             let z = mesh.middle(k);
             if z < self.h_p {
@@ -152,6 +164,7 @@ impl Bed {
             w: solved.u[..=bed].to_vec(),
             tau_f,
             tau_p,
+            slip: 0.0,
             u: solved.u,
             mesh,
             history: solved.history,
@@ -163,7 +176,7 @@ impl Bed {
         // Excess of the seepage just above the level over the slip of moving grains: their velocity there.
         let moving = |h_c: f64| {
             let mesh = self.mesh(on_yield, h_c);
-            self.with(&mesh, k, |coupled| {
+            self.with(&mesh, h_c, k, |coupled| {
                 let still = mesh.below(h_c);
                 coupled.rigid(still).u[still] / (k * self.mu_s * self.phi) - 1.0
             })
@@ -177,47 +190,42 @@ impl Bed {
         };
         let mesh = self.mesh(on_yield, h_c);
         let still = mesh.below(h_c);
-        let start = self.with(&mesh, k, |coupled| coupled.rigid(still));
+        let start = self.with(&mesh, h_c, k, |coupled| coupled.rigid(still));
         if regularisation.is_exact() && self.rise.is_none() {
             let solved = two_fluid::Solved { history, ..start };
-            return Ok(self.collect(mesh, h_c, solved, Some((still, k))));
+            return Ok(self.collect(mesh, h_c, k, solved));
         }
         let mesh = if nodes.on_yield { mesh } else { self.mesh(nodes, h_c) };
-        let start = self.with(&mesh, k, |coupled| coupled.rigid(mesh.below(h_c)));
-        let solved = self.with(&mesh, k, |coupled| coupled.creeping(&start, regularisation));
+        let start = self.with(&mesh, h_c, k, |coupled| coupled.rigid(mesh.below(h_c)));
+        let solved = self.with(&mesh, h_c, k, |coupled| coupled.creeping(&start, regularisation));
         let solved = solved.map_err(|e| SolveError::NotConverged { residual: e.residual, iterations: e.iterations })?;
-        Ok(self.collect(mesh, h_c, solved, None))
+        Ok(self.collect(mesh, h_c, k, solved))
     }
 
     /// Calls `run` with the coupled problem on `mesh`.
-    fn with<T>(&self, mesh: &Mesh, k: f64, run: impl FnOnce(&two_fluid::Coupled<'_>) -> T) -> T {
+    fn with<T>(&self, mesh: &Mesh, h_c: f64, k: f64, run: impl FnOnce(&two_fluid::Coupled<'_>) -> T) -> T {
         let elements = self.elements(mesh);
         let bed = mesh.below(self.h_p);
         let yields: Vec<f64> = mesh.nodes()[..=bed].iter().map(|&z| self.mu_s * self.pressure(z)).collect();
         let k = vec![k; bed];
-        run(&two_fluid::Coupled { mesh, elements: &elements, bed, f: self.f, k: &k, yields: &yields })
+        let fitted = (0..bed).take_while(|&i| mesh.nodes()[i + 1] <= h_c * (1.0 + 1e-12)).count();
+        run(&two_fluid::Coupled { mesh, elements: &elements, bed, f: self.f, fitted, k: &k, yields: &yields })
     }
 
-    fn collect(&self, mesh: Mesh, h_c: f64, solved: two_fluid::Solved, fitted: Option<(usize, f64)>) -> Solution {
+    fn collect(&self, mesh: Mesh, h_c: f64, k: f64, solved: two_fluid::Solved) -> Solution {
+        let (tau_f, slip) = self.with(&mesh, h_c, k, |coupled| {
+            (coupled.fluid_stress(&solved.u, &solved.w), coupled.slip_integral(&solved.u, &solved.w))
+        });
         let bed = mesh.below(self.h_p);
-        let elements = self.elements(&mesh);
-        let stress = |i: usize| {
-            let (e, h) = (elements[i].e, mesh.size(i));
-            let width = match fitted {
-                Some((still, k)) if i < still => {
-                    let l = (k * e).sqrt();
-                    2.0 * l * (0.5 * h / l).sinh()
-                }
-                _ => h,
-            };
-            e * (solved.u[i + 1] - solved.u[i]) / width
-        };
-        let tau_f = (0..mesh.elements()).map(stress).collect();
-        Solution { bed, h_c, tau_f, u: solved.u, w: solved.w, tau_p: solved.tau_p, history: solved.history, mesh }
+        Solution { bed, h_c, tau_f, u: solved.u, w: solved.w, tau_p: solved.tau_p, slip, history: solved.history, mesh }
     }
 
     fn whole_bed(&self, level: f64) -> SolveError {
-        SolveError::WholeBedMoves { mobile_depth_m: self.h_p - level.min(0.0), bed_m: self.h_p, limit_pa_m: f64::NAN }
+        SolveError::WholeBedMoves {
+            mobile_depth_m: self.h_p - level.min(0.0),
+            bed_m: self.h_p,
+            limit_pa_m: self.largest_drive(),
+        }
     }
 }
 
@@ -226,6 +234,13 @@ fn not_converged(error: single::NotConverged) -> SolveError {
 }
 
 impl Solution {
+    /// Fluid stress at the bed level, from above.
+    #[must_use]
+    pub fn tau_interface(&self, f: f64) -> f64 {
+        let z = self.mesh.nodes()[self.bed];
+        self.tau_f[self.bed] + f * (self.mesh.middle(self.bed) - z)
+    }
+
     /// Solid flux per phi: integral of the grain velocity over the bed. Exact where the shear rate is linear on each side of
     /// the yield level: the trapezoidal rule with the change of the shear rate along the element.
     #[must_use]
@@ -249,7 +264,6 @@ impl Solution {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::continuum::exact::ouriemi::Scaled;
     use crate::problem::Smoothing;
     use approx::assert_relative_eq;
 

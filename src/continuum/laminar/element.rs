@@ -5,6 +5,7 @@
 //! The first term is the fluid, the second the yield stress with its regularisation, the third what mu(I_v) adds to it. The
 //! function is odd and increasing, so it has one inverse; with the exact yield it jumps from -y to y at rest.
 
+use crate::closures::friction::MuIv;
 use crate::problem::Regularisation;
 
 /// An element of the mesh: one viscosity, one yield stress.
@@ -18,24 +19,20 @@ pub struct Element {
     pub rise: Option<Rise>,
 }
 
-/// The rise of the friction with the viscous number.
+/// The rise of the friction with the viscous number, under the particle pressure of the element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rise {
     /// particle pressure
     pub p: f64,
-    /// mu_2 - mu_s
-    pub mu: f64,
-    /// viscous number at half the rise
-    pub i_0: f64,
+    /// the law
+    pub law: MuIv,
 }
 
 impl Rise {
     /// Stress and its derivative at the shear rate `gamma`.
     #[must_use]
     pub fn stress(&self, gamma: f64) -> (f64, f64) {
-        let half = self.i_0 * self.p;
-        let sum = half + gamma.abs();
-        if sum == 0.0 { (0.0, 0.0) } else { (self.mu * self.p * gamma / sum, self.mu * self.p * half / (sum * sum)) }
+        self.law.rise(self.p, gamma)
     }
 }
 
@@ -94,7 +91,7 @@ mod tests {
 
     #[test]
     fn the_inverse_inverts_for_every_law_and_size() {
-        let rise = Some(Rise { p: 0.2, mu: 0.6, i_0: 7e-3 });
+        let rise = Some(Rise { p: 0.2, law: MuIv { mu_s: 0.3, mu_2: 0.9, i_0: 7e-3 } });
         for law in [Smoothing::None, Smoothing::Simple, Smoothing::BercovierEngelman, Smoothing::Papanastasiou] {
             for lambda in [1e-1, 1e-4, 1e-8, 1e-12] {
                 for (y, rise) in [(0.1, None), (0.1, rise), (0.0, rise), (0.0, None)] {

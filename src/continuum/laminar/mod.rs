@@ -6,5 +6,10 @@
 pub mod bed;
 pub mod element;
 pub mod mesh;
+mod outcome;
+mod plane;
 pub mod single;
 pub mod two_fluid;
+
+pub use outcome::{equations, run};
+pub use plane::{equations as bingham_equations, run as run_bingham};

@@ -1,18 +1,20 @@
-//! Two velocities: the mixture U and the grains w, coupled by Darcy drag. Linear elements, drag lumped to the nodes.
-//!
-//! With `tau_f = e U'` everywhere, `tau_p` in the bed only, `b_j` the thickness of bed that node j stands for:
+//! Two velocities: the mixture U and the grains w, coupled by Darcy drag. Elements with stresses in their middle:
 //!
 //! ```text
 //! mixture  [tau_f + tau_p]_j - [tau_f + tau_p]_(j-1) + f (h_(j-1) + h_j)/2 = 0
-//! grains   [tau_p]_j - [tau_p]_(j-1) + b_j (U_j - w_j)/K = 0                        (tau_p = 0 above the bed)
+//! grains   [tau_p]_j - [tau_p]_(j-1) + D_j = 0                                    (tau_p = 0 above the bed)
 //! walls    U = 0, w = 0 below; U = 0 above
 //! ```
 //!
-//! **Exact yield** ([`rigid`]): below a given level the grains stand, and the seepage `e U'' + f = U/K` is solved by
-//! exponentially fitted elements, which are exact at the nodes for any size; above it the grains carry `mu_s p`, and the slip
+//! `D_j` is the drag between the middles of the two elements at node j. With `V = U - w - K f` it is the integral of
+//! `(V + K f)/K`. Where the grains shear, U and w have the same curvature, V is constant, and the drag is lumped to the node.
+//! Where they stand or creep, `e V'' = V/K` with w linear in the element: its solutions are exponentials of `z/l`,
+//! `l = sqrt(K e)`, and the elements are fitted to them (both exact at the nodes, of any size, in Coulomb's bed).
+//!
+//! **Exact yield** ([`Coupled::rigid`]): below a given level the grains stand, above it they carry `mu_s p`, and the slip
 //! follows. The yield level is where the grain velocity that results just above it vanishes.
 //!
-//! **Regularised** ([`creeping`]): Newton on U, w and the carried ratio `r = R(gamma)` of each element as a third unknown, with
+//! **Regularised** ([`Coupled::creeping`]): Newton on U, w and the carried ratio `r = R(gamma)` of each element as a third unknown, with
 //! `r m(gamma) = gamma` linearised in all of them and eliminated in the element (after Chan, Golub & Mulet 1999, SIAM J. Sci.
 //! Comput. 20, 1964-1977). Without the extra unknown Newton's method stalls for small lambda. It starts from the exact yield.
 
@@ -34,6 +36,8 @@ pub struct Coupled<'a> {
     pub bed: usize,
     /// drive
     pub f: f64,
+    /// elements at the bottom of the bed whose drag is fitted to exponentials, those below the yield level
+    pub fitted: usize,
     /// permeability of each element of the bed
     pub k: &'a [f64],
     /// yield stress at the nodes of the bed
@@ -67,12 +71,40 @@ const MOST: usize = 200;
 /// Residual of the momentum, relative to the drive, that round-off allows.
 const ROUND_OFF: f64 = 1e-13;
 
+/// How the fluid feels one element of the bed: stress in its middle `e w' + middle (V_above - V_below)`, drag on the half at a
+/// node `f h/2 + own V_node + other V_opposite`.
+#[derive(Clone, Copy, Debug, Default)]
+struct Seepage {
+    middle: f64,
+    own: f64,
+    other: f64,
+}
+
 impl Coupled<'_> {
-    /// Thickness of bed that node `j` stands for, over the permeability: the drag coefficient of the node.
-    fn drag(&self, j: usize) -> f64 {
-        let half = |k: usize| 0.5 * self.mesh.size(k) / self.k[k];
-        let below = if j > 0 && j <= self.bed { half(j - 1) } else { 0.0 };
-        below + if j < self.bed { half(j) } else { 0.0 }
+    /// Coefficients of element `k` of the bed.
+    fn seepage(&self, k: usize) -> Seepage {
+        let (e, h, permeability) = (self.elements[k].e, self.mesh.size(k), self.k[k]);
+        if k >= self.fitted {
+            return Seepage { middle: e / h, own: 0.5 * h / permeability, other: 0.0 };
+        }
+        let l = (permeability * e).sqrt();
+        let (x, scale) = (h / l, e / l);
+        let middle = 0.5 * scale / (0.5 * x).sinh();
+        Seepage { middle, own: scale / x.tanh() - middle, other: middle - scale / x.sinh() }
+    }
+
+    /// Fluid stress in the middle of each element.
+    #[must_use]
+    pub fn fluid_stress(&self, u: &[f64], w: &[f64]) -> Vec<f64> {
+        let stress = |k: usize| {
+            let e = self.elements[k].e / self.mesh.size(k);
+            if k >= self.bed {
+                return e * (u[k + 1] - u[k]);
+            }
+            let (middle, shear) = (self.seepage(k).middle, w[k + 1] - w[k]);
+            e * shear + middle * (u[k + 1] - u[k] - shear)
+        };
+        (0..self.elements.len()).map(stress).collect()
     }
 
     /// Velocities if the lowest `still` elements of the bed stand and the others carry their yield stress. Any friction that
@@ -103,16 +135,11 @@ impl Coupled<'_> {
         for j in (1..n).rev() {
             u[j] = rhs[j] + upper[j] * u[j + 1];
         }
-        let w = (0..=self.bed).map(|j| if j <= still { 0.0 } else { u[j] - self.slip(j) }).collect();
-        // The fluid stress in the middle of each element; the grains below the yield level carry the rest of the total.
-        let fluid = |k: usize| {
-            let (e, h) = (self.elements[k].e, self.mesh.size(k));
-            let l = if k < still { (self.k[k] * e).sqrt() } else { f64::INFINITY };
-            let width = if k < still { 2.0 * l * (0.5 * h / l).sinh() } else { h };
-            e * (u[k + 1] - u[k]) / width
-        };
-        let top = fluid(self.bed) + self.f * self.mesh.middle(self.bed);
-        let rest = |k: usize| top - self.f * self.mesh.middle(k) - fluid(k);
+        let w: Vec<f64> = (0..=self.bed).map(|j| if j <= still { 0.0 } else { u[j] - self.slip(j) }).collect();
+        // The grains below the yield level carry what the fluid leaves of the total stress.
+        let tau_f = self.fluid_stress(&u, &w);
+        let top = tau_f[self.bed] + self.f * self.mesh.middle(self.bed);
+        let rest = |k: usize| top - self.f * self.mesh.middle(k) - tau_f[k];
         let tau_p = (0..self.bed).map(|k| if k < still { rest(k) } else { self.elements[k].y }).collect();
         Solved { u, w, tau_p, history: Vec::new() }
     }
@@ -125,8 +152,9 @@ impl Coupled<'_> {
 
     /// Slip U - w at node `j` of grains that carry their yield stress on both sides.
     fn slip(&self, j: usize) -> f64 {
-        let above = if j < self.bed { self.elements[j].y } else { 0.0 };
-        (self.elements[j - 1].y - above) / self.drag(j)
+        let half = |k: usize| 0.5 * self.mesh.size(k) / self.k[k];
+        let (above, drag) = if j < self.bed { (self.elements[j].y, half(j)) } else { (0.0, 0.0) };
+        (self.elements[j - 1].y - above) / (half(j - 1) + drag)
     }
 
     /// Velocities with the regularised yield stress, from the start `from`.
@@ -177,56 +205,77 @@ impl Coupled<'_> {
         Err(NotConverged { residual: history.last().copied().unwrap_or(f64::NAN), iterations: MOST })
     }
 
+    /// Drag on the half of element `k` at its upper or lower node.
+    fn drag(&self, k: usize, upper: bool, u: &[f64], w: &[f64]) -> f64 {
+        let Seepage { own, other, .. } = self.seepage(k);
+        let v = |j: usize| u[j] - w[j] - self.k[k] * self.f;
+        let (here, opposite) = if upper { (v(k + 1), v(k)) } else { (v(k), v(k + 1)) };
+        0.5 * self.f * self.mesh.size(k) + own * here + other * opposite
+    }
+
+    /// Residuals of the momentum of the mixture and of the grains at node `j`.
+    fn imbalance(&self, j: usize, u: &[f64], w: &[f64], tau_f: &[f64], tau_p: &[f64]) -> Vector2<f64> {
+        let solid = |k: usize| if k < self.bed { tau_p[k] } else { 0.0 };
+        let drive = 0.5 * self.f * (self.mesh.size(j - 1) + self.mesh.size(j));
+        let mixture = tau_f[j] + solid(j) - tau_f[j - 1] - solid(j - 1) + drive;
+        if j > self.bed {
+            return Vector2::new(mixture, 0.0);
+        }
+        let above = if j < self.bed { self.drag(j, false, u, w) } else { 0.0 };
+        Vector2::new(mixture, solid(j) - solid(j - 1) + above + self.drag(j - 1, true, u, w))
+    }
+
+    /// Integral of U - w over the bed, from the drag.
+    #[must_use]
+    pub fn slip_integral(&self, u: &[f64], w: &[f64]) -> f64 {
+        (0..self.bed).map(|k| self.k[k] * (self.drag(k, true, u, w) + self.drag(k, false, u, w))).sum()
+    }
+
     /// Largest residual of both momentum equations, relative to the drive over the height.
     fn residual(&self, u: &[f64], w: &[f64], tau_p: &[f64]) -> f64 {
-        let solid = |k: usize| if k < self.bed { tau_p[k] } else { 0.0 };
-        let fluid = |k: usize| self.elements[k].e * (u[k + 1] - u[k]) / self.mesh.size(k);
-        let at = |j: usize| {
-            let drive = 0.5 * self.f * (self.mesh.size(j - 1) + self.mesh.size(j));
-            let mixture = fluid(j) + solid(j) - fluid(j - 1) - solid(j - 1) + drive;
-            let grains = if j <= self.bed { solid(j) - solid(j - 1) + self.drag(j) * (u[j] - w[j]) } else { 0.0 };
-            mixture.abs().max(grains.abs())
-        };
+        let tau_f = self.fluid_stress(u, w);
+        let at = |j: usize| self.imbalance(j, u, w, &tau_f, tau_p).amax();
         (1..self.elements.len()).map(at).fold(0.0, f64::max) / self.f
     }
 
     /// The linear system of one Newton step for (U, w) at the inner nodes.
     fn assemble(&self, rows: &mut [Row<2>], u: &[f64], w: &[f64], ratio: &[f64], regularisation: &Regularisation) {
         let n = self.elements.len();
+        let tau_f = self.fluid_stress(u, w);
         // Stress of the grains with the ratio as an unknown, eliminated: value and tangent per element.
-        let solid: Vec<(f64, f64)> = (0..n)
-            .map(|k| {
-                if k >= self.bed {
-                    return (0.0, 0.0);
-                }
-                let element = &self.elements[k];
-                let gamma = (w[k + 1] - w[k]) / self.mesh.size(k);
-                let (m, dm) = regularisation.effective(gamma);
-                let (rise, slope) = element.rise.map_or((0.0, 0.0), |rise| rise.stress(gamma));
-                (element.y * gamma / m + rise, element.y * (1.0 - ratio[k] * dm) / m + slope)
-            })
-            .collect();
+        let (mut tau_p, mut tangent) = (vec![0.0; self.bed], vec![0.0; n]);
+        for k in 0..self.bed {
+            let (element, h) = (&self.elements[k], self.mesh.size(k));
+            let gamma = (w[k + 1] - w[k]) / h;
+            let (m, dm) = regularisation.effective(gamma);
+            let (rise, slope) = element.rise.map_or((0.0, 0.0), |rise| rise.stress(gamma));
+            tau_p[k] = element.y * gamma / m + rise;
+            tangent[k] = (element.y * (1.0 - ratio[k] * dm) / m + slope) / h;
+        }
+        // Derivative of the fluid stress of an element with respect to the steps of U and of w.
+        let fluid = |k: usize| {
+            let e = self.elements[k].e / self.mesh.size(k);
+            let middle = if k < self.bed { self.seepage(k).middle } else { e };
+            (middle, e - middle)
+        };
         for j in 1..n {
-            let (h0, h1) = (self.mesh.size(j - 1), self.mesh.size(j));
-            let (f0, f1) = (self.elements[j - 1].e / h0, self.elements[j].e / h1);
-            let ((s0, t0), (s1, t1)) = (solid[j - 1], solid[j]);
-            let (t0, t1) = (t0 / h0, t1 / h1);
-            let in_bed = j <= self.bed;
-            let drag = self.drag(j);
-            let mixture = f1 * (u[j + 1] - u[j]) - f0 * (u[j] - u[j - 1]) + s1 - s0 + 0.5 * self.f * (h0 + h1);
+            let ((u0, w0), (u1, w1)) = (fluid(j - 1), fluid(j));
+            let (t0, t1) = (tangent[j - 1], tangent[j]);
             let row = &mut rows[j - 1];
-            if in_bed {
-                let grains = s1 - s0 + drag * (u[j] - w[j]);
-                row.lower = Matrix2::new(f0, t0, 0.0, t0);
-                row.diagonal = Matrix2::new(-f0 - f1, -t0 - t1, drag, -t0 - t1 - drag);
-                row.upper = Matrix2::new(f1, t1, 0.0, t1);
-                row.rhs = -Vector2::new(mixture, grains);
-            } else {
-                row.lower = Matrix2::new(f0, 0.0, 0.0, 0.0);
-                row.diagonal = Matrix2::new(-f0 - f1, 0.0, 0.0, 1.0);
-                row.upper = Matrix2::new(f1, 0.0, 0.0, 0.0);
-                row.rhs = -Vector2::new(mixture, 0.0);
+            row.rhs = -self.imbalance(j, u, w, &tau_f, &tau_p);
+            if j > self.bed {
+                // No grains: their velocity does not change. The node below still knows those of the bed.
+                row.lower = Matrix2::new(u0, if j == self.bed + 1 { w0 } else { 0.0 }, 0.0, 0.0);
+                row.diagonal = Matrix2::new(-u0 - u1, 0.0, 0.0, 1.0);
+                row.upper = Matrix2::new(u1, 0.0, 0.0, 0.0);
+                continue;
             }
+            let below = self.seepage(j - 1);
+            let above = if j < self.bed { self.seepage(j) } else { Seepage::default() };
+            let own = below.own + above.own;
+            row.lower = Matrix2::new(u0, w0 + t0, below.other, t0 - below.other);
+            row.diagonal = Matrix2::new(-u0 - u1, -w0 - w1 - t0 - t1, own, -t0 - t1 - own);
+            row.upper = Matrix2::new(u1, w1 + t1, above.other, t1 - above.other);
         }
     }
 }

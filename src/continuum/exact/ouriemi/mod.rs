@@ -27,6 +27,7 @@ mod outcome;
 #[cfg(test)]
 mod tests;
 
+pub(in crate::continuum) use outcome::viscosity_text;
 pub use outcome::{equations, run};
 
 use super::brinkman::Brinkman;

@@ -1,19 +1,14 @@
 //! Ouriemi's bed in SI: profile, numbers, balances, and the equations with their numbers.
 
 use super::{Scaled, Solution, solve};
-use crate::closures::drag::carman_kozeny;
-use crate::closures::{Range, mixture_viscosity::MixtureViscosity};
-use crate::continuum::exact::{Column, balance, closure_name, outcome, outside, tabulate};
+use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::continuum::bed_results::BedNumbers;
+use crate::continuum::exact::{Column, balance, outcome, tabulate};
 use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
 use crate::problem::{Drive, LaminarBed};
-use crate::result::{Balance, Failure, Outcome, Results, Validity, Watch, quantity as q};
+use crate::result::{Balance, Failure, Outcome, Watch, quantity as q};
 use crate::units::significant;
-
-/// A continuum layer is at least one grain thick.
-const THICKNESS: Range = Range { variable: "mobile_depth_m/d", min: 1.0, max: f64::INFINITY };
-/// A bed at rest under the moving grains, too.
-const REST: Range = Range { variable: "yield_level_m/d", min: 1.0, max: f64::INFINITY };
 
 /// Evaluates the closed form for `bed` on about `cells` levels.
 ///
@@ -23,7 +18,8 @@ pub fn run(bed: &LaminarBed, cells: usize, watch: &mut dyn Watch) -> Result<Outc
     let mut history = Vec::new();
     let solution = solve(bed, |r| history.push(r))?;
     let profile = tabulate(levels(&solution, bed, cells), &columns(&solution, bed), watch)?;
-    outcome(profile, history, results(&solution, bed), balances(&solution), validity(&solution, bed))
+    let numbers = numbers(&solution);
+    outcome(profile, history, numbers.results(bed), balances(&solution), numbers.validity(bed))
 }
 
 /// The walls and the centres of cells [m] whose faces lie on the yield level and the bed level, so that no level lies on a
@@ -77,59 +73,19 @@ fn columns<'a>(solution: &'a Solution, bed: &'a LaminarBed) -> Vec<Column<'a>> {
     columns
 }
 
-/// Largest slip u_f - u_p between the phases [m/s]; 0 in the mixed form.
-fn largest_slip(solution: &Solution, bed: &LaminarBed) -> f64 {
-    let at_rest = if solution.moves() { 0.0 } else { solution.mixture(solution.scaled.h_p) };
-    let moving = if solution.moves() { solution.slip() } else { 0.0 };
-    at_rest.max(moving) / (1.0 - bed.phi) * bed.velocity_scale()
-}
-
-/// Particle Reynolds number, as the catalogue defines it.
-fn particle_reynolds(solution: &Solution, bed: &LaminarBed) -> f64 {
-    let velocity = match bed.drag {
-        Some(_) => largest_slip(solution, bed),
-        None => solution.shear_rate(solution.scaled.h_p) * bed.velocity_scale() * bed.d / bed.h,
-    };
-    bed.rho_f * velocity * bed.d / bed.eta
-}
-
-fn results(solution: &Solution, bed: &LaminarBed) -> Results {
-    let (h, velocity, stress) = (bed.h, bed.velocity_scale(), bed.stress_scale());
-    let rate = bed.phi * solution.flux() * velocity * h;
-    let tau = solution.tau_interface * stress;
-    let (z_max, u_max) = solution.largest_velocity();
-    let discharge = solution.discharge() * velocity * h;
-    let mut results = Results::default();
-    results.set(&q::TRANSPORT_RATE, rate);
-    results.set(&q::TRANSPORT_RATE_MASS, rate * bed.rho_p);
-    results.set(&q::TRANSPORT_RATE_BULK, rate / bed.phi);
-    let reduced = (bed.rho_p / bed.rho_f - 1.0) * bed.g;
-    results.set(&q::TRANSPORT_RATE_DIMENSIONLESS, rate / (bed.d * (reduced * bed.d).sqrt()));
-    results.set(&q::SHIELDS, tau / (reduced * bed.rho_f * bed.d));
-    results.set(&q::U_STAR, (tau / bed.rho_f).sqrt());
-    results.set(&q::MOBILE_DEPTH, solution.mobile_depth() * h);
-    results.set(&q::YIELD_LEVEL, solution.h_c * h);
-    results.set(&q::BED_LEVEL, bed.h_p);
-    results.set(&q::FLOW_HEIGHT, h);
-    results.set(&q::PHI_INTERFACE, bed.phi);
-    results.set(&q::U_MAX, u_max * velocity);
-    results.set(&q::U_MAX_LEVEL, z_max * h);
-    results.set(&q::MEAN_VELOCITY, discharge / h);
-    results.set(&q::FLUID_DISCHARGE, discharge - rate);
-    if bed.drag.is_some() {
-        results.set(&q::SLIP_VELOCITY, solution.slip() * velocity);
+/// The numbers that the closed form comes down to.
+fn numbers(solution: &Solution) -> BedNumbers {
+    let Scaled { f, h_p, .. } = solution.scaled;
+    BedNumbers {
+        f,
+        flux: solution.flux(),
+        discharge: solution.discharge(),
+        tau: solution.tau_interface,
+        h_c: solution.h_c,
+        largest: solution.largest_velocity(),
+        slip: if solution.moves() { solution.slip() } else { solution.mixture(h_p) },
+        shear: solution.shear_rate(h_p),
     }
-    results.set(
-        &q::DRIVE,
-        match bed.drive {
-            Drive::PressureGradient(given) => given,
-            Drive::Shields(_) => solution.scaled.f * stress / h,
-        },
-    );
-    results.set(&q::DRIVE_DIMENSIONLESS, solution.scaled.f);
-    results.set(&q::REYNOLDS, bed.rho_f * discharge / bed.eta);
-    results.set(&q::REYNOLDS_PARTICLE, particle_reynolds(solution, bed));
-    results
 }
 
 fn balances(solution: &Solution) -> Vec<Balance> {
@@ -143,24 +99,6 @@ fn balances(solution: &Solution) -> Vec<Balance> {
         balances.push(balance("transport_rate", integral / solution.flux() - 1.0, how));
     }
     balances
-}
-
-fn validity(solution: &Solution, bed: &LaminarBed) -> Vec<Validity> {
-    let viscosity = bed.viscosity.info();
-    let mut found: Vec<Validity> = Vec::new();
-    for range in viscosity.ranges {
-        found.extend(outside(closure_name(viscosity), range, bed.phi));
-    }
-    if bed.drag.is_some() {
-        let re_p = particle_reynolds(solution, bed);
-        found.extend(outside(closure_name(&carman_kozeny::INFO), &carman_kozeny::REYNOLDS_RANGE, re_p));
-    }
-    if solution.moves() {
-        let grains = solution.mobile_depth() * bed.h / bed.d;
-        found.extend(outside("continuum/mobile layer".into(), &THICKNESS, grains));
-    }
-    found.extend(outside("continuum/static layer".into(), &REST, solution.h_c * bed.h / bed.d));
-    found
 }
 
 /// The equations that are solved, with their numbers.
@@ -218,7 +156,7 @@ pub fn equations(bed: &LaminarBed) -> String {
     text
 }
 
-fn viscosity_text(bed: &LaminarBed) -> String {
+pub(in crate::continuum) fn viscosity_text(bed: &LaminarBed) -> String {
     match bed.viscosity {
         MixtureViscosity::Clear => "1".into(),
         MixtureViscosity::Einstein => "1 + 5/2 φ".into(),

@@ -1,4 +1,4 @@
-//! The one place of small numbers: how a yield stress is smoothed, and by how much.
+//! How a yield stress is smoothed, and by how much.
 //!
 //! A regularised material carries `tau_0 R(gamma)` instead of `tau_0 gamma/|gamma|`, with `R -> +-1` for `|gamma| >> lambda`
 //! and the viscosity `tau_0/lambda` at rest: below yield it creeps instead of standing still. `lambda` [1/s], or any unit of

@@ -1,0 +1,122 @@
+//! Valid forms of a case are accepted, whatever TOML they use; the shipped cases keep their form.
+
+use std::fs;
+
+use bedload::case::{Case, shipped};
+use bedload::problem::Problem;
+
+use crate::support::{Scratch, files, project};
+
+/// The resolved case of a text that must be valid.
+#[track_caller]
+fn resolved(text: &str) -> String {
+    match Problem::check(Case::parse("case", "case", text.into(), &[])) {
+        Ok((case, _)) => case.resolved(),
+        Err(error) => panic!("{}", error.render(false)),
+    }
+}
+
+fn aussillous() -> String {
+    shipped::find("exact_1d_aussillous").unwrap().to_owned()
+}
+
+#[test]
+fn dotted_keys_and_inline_tables_are_the_same_case() {
+    let wanted = resolved(&aussillous());
+    let checks = aussillous().split_once("[[check]]").unwrap().1.to_owned();
+    let inline = r#"
+        format = 1
+        case.title = "Laminar bedload: Aussillous et al. (2013), closed form"
+        fluid = { density = "1.07 g/cm3", viscosity = 0.27 }
+        grains = { diameter = 2e-3, density = 1190 }
+        bed.level = "3.224 cm"
+        bed.phi = "60 %"
+        "flow".'height' = "65 mm"
+        flow.pressure_gradient = "0.1 kPa/m"
+        model = { kind = "exact", solution = "ouriemi", form = "mixed" }
+        closures.friction = { law = "coulomb", mu_s = 0.32 }
+        closures.mixture_viscosity.law = "einstein"
+    "#;
+    assert_eq!(resolved(&format!("{inline}\n[[check]]{checks}")), wanted);
+    let windows = aussillous().replace('\n', "\r\n");
+    assert_eq!(resolved(&windows), wanted);
+    assert_eq!(resolved(&format!("\u{feff}{}", aussillous())), wanted);
+}
+
+#[test]
+fn the_order_of_tables_does_not_matter() {
+    let text = aussillous();
+    let (head, tables) = text.split_once("\n[").unwrap();
+    let (tables, checks) = tables.split_once("\n[[check]]").unwrap();
+    let mut parts: Vec<&str> = tables.split("\n[").collect();
+    parts.reverse();
+    let reversed = format!("{head}\n[{}\n\n[[check]]{checks}", parts.join("\n["));
+    assert_ne!(reversed, text);
+    assert_eq!(resolved(&reversed), resolved(&text));
+}
+
+#[test]
+fn overrides_change_add_and_remove_values() {
+    let with = |overrides: &[&str]| {
+        let overrides: Vec<String> = overrides.iter().map(|&o| o.to_owned()).collect();
+        Problem::load("exact_1d_aussillous", &overrides).map(|(case, _)| case.resolved())
+    };
+    let plain = with(&[]).unwrap();
+    assert_eq!(with(&["bed.level=0.03224"]).unwrap(), plain);
+    assert!(with(&["bed.level = 30 mm"]).unwrap().contains("level = 0.03\n"));
+    let shields = with(&["flow.pressure_gradient=", "flow.shields=0.5"]).unwrap();
+    assert!(shields.contains("shields = 0.5") && !shields.contains("pressure_gradient"));
+    assert!(with(&["grid.cells=50"]).unwrap().contains("cells = 50"));
+    assert!(with(&["check.0.expect=1.5"]).unwrap().contains("expect = 1.5"));
+    for wrong in ["bed.level", "=1", "bed..level=1", "bed[0]=1", "bed.level.deep=1", "check.9.expect=1", "bed.lvel=1"] {
+        let error = with(&[wrong]).unwrap_err();
+        assert!(error.render(false).contains(wrong), "{wrong}: {}", error.render(false));
+        assert!(error.reports().iter().all(|r| r.line.is_none()), "{wrong} points into the file");
+    }
+}
+
+#[test]
+fn the_shipped_list_is_the_folder() {
+    let in_folder: Vec<String> = files(&project("cases"), "toml")
+        .iter()
+        .map(|path| path.file_stem().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    assert_eq!(shipped::names().collect::<Vec<_>>(), in_folder, "src/case/shipped.rs against cases/");
+    for name in shipped::names() {
+        let file = fs::read_to_string(project(&format!("cases/{name}.toml"))).unwrap();
+        assert_eq!(shipped::find(name), Some(file.as_str()), "{name}: build again");
+    }
+}
+
+#[test]
+fn shipped_cases_keep_the_order_of_tables_and_say_what_they_ask() {
+    let order = "format case fluid grains bed flow model closures regularisation grid discrete solver output check";
+    let rank = |table: &str| order.split(' ').position(|t| t == table.split('.').next().unwrap_or(table));
+    for name in shipped::names() {
+        let text = shipped::find(name).unwrap();
+        let header: Vec<&str> = text.lines().take_while(|l| l.starts_with('#')).collect();
+        let comment = header.iter().filter(|l| l.starts_with("# ")).copied().collect::<Vec<_>>().join(" ");
+        assert!(comment.contains('?'), "{name}: the header asks no question");
+        assert!(comment.contains("Expected:"), "{name}: the header does not say the seconds");
+        let tables = text.lines().filter(|l| l.starts_with('[')).map(|l| l.trim_matches(['[', ']']));
+        let ranks: Vec<usize> = tables.map(|t| rank(t).unwrap_or_else(|| panic!("{name}: [{t}]"))).collect();
+        assert!(ranks.is_sorted(), "{name}: tables out of order");
+        assert!(text.lines().any(|l| l == "format = 1"), "{name}");
+        assert!(text.contains("[[check]]"), "{name} tests nothing");
+        assert!(name.split('_').count() >= 3, "{name} is not <engine>_<dim>_<physics>");
+    }
+}
+
+#[test]
+fn shipped_cases_are_valid_and_resolve_to_themselves() {
+    let scratch = Scratch::new();
+    for name in shipped::names() {
+        let said = scratch.bedload(["check", name]).exits(0).out;
+        assert!(said.starts_with(&format!("{name}: valid, ")), "{said}");
+        let (case, problem) = Problem::load(name, &[]).unwrap();
+        let once = case.resolved();
+        let again = Case::parse(name, "case.toml", once.clone(), &[]).unwrap_or_else(|e| panic!("{}", e.render(false)));
+        assert_eq!(again.resolved(), once, "{name}");
+        assert_eq!(Problem::new(&again).unwrap(), problem, "{name}");
+    }
+}

@@ -1,0 +1,17 @@
+//! What `bedload` promises, tested from outside: the program as a person runs it, and the library as a study calls it.
+//! One binary, so that it links once.
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+mod architecture;
+mod cases_bad;
+mod cases_good;
+mod cli;
+mod compare;
+mod folder;
+mod interruption;
+mod mutate;
+mod never_panics;
+mod paths;
+mod report;
+mod schema;
+mod support;
