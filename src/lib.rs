@@ -16,7 +16,8 @@
 //! | [`continuum`] | models |
 //! | `run` | [`run()`]: the one entry point |
 //! | [`plot`] | figures and pages |
-//! | [`output`] | the folder of a run |
+//! | [`compare`] | several runs and measured profiles side by side |
+//! | [`output`] | the folder of a run, of a comparison |
 //! | [`validate`] | re-runs what the cases claim |
 //! | [`cli`] | the command line, one file per verb |
 //!
@@ -32,6 +33,7 @@
 pub mod case;
 pub mod cli;
 pub mod closures;
+pub mod compare;
 pub mod continuum;
 pub mod numerics;
 pub mod output;

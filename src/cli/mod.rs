@@ -1,6 +1,7 @@
 //! The command line: one file per verb. Answers go to standard output, everything else to standard error.
 
 mod check;
+mod compare;
 mod completions;
 mod explain;
 mod list;
@@ -18,6 +19,7 @@ use clap::{Args, Parser, Subcommand};
 use serde_json::{Value, json};
 
 use crate::case::{Case, CaseError, printable};
+use crate::compare::CompareError;
 use crate::output::OutputError;
 use crate::problem::Problem;
 use crate::result::ErrorReport;
@@ -48,6 +50,8 @@ enum Verb {
     List(list::List),
     /// Redraw figures and page of a run from its tables
     Report(report::Report),
+    /// Set cases, runs and measured profiles side by side
+    Compare(compare::Compare),
     /// Re-run what the cases claim and write the table
     Validate(validate::Validate),
     /// Print the JSON Schema of case files, for editors
@@ -86,6 +90,8 @@ enum CliError {
     Case(Box<CaseError>),
     /// the folder is refused (2) or writing it broke (1)
     Output(OutputError),
+    /// the subjects cannot be compared: 2
+    Compare(CompareError),
     /// the method failed, the folder says how: 3. The answer for `--json`
     Failed(ErrorReport, Option<Value>),
     /// some rows of a validation are red: 3
@@ -103,6 +109,12 @@ enum CliError {
 impl From<CaseError> for CliError {
     fn from(error: CaseError) -> Self {
         Self::Case(Box::new(error))
+    }
+}
+
+impl From<CompareError> for CliError {
+    fn from(error: CompareError) -> Self {
+        Self::Compare(error)
     }
 }
 
@@ -144,6 +156,7 @@ pub fn execute() -> ExitCode {
         Verb::Check(verb) => verb.json,
         Verb::List(verb) => verb.json,
         Verb::Report(verb) => verb.json,
+        Verb::Compare(verb) => verb.json,
         Verb::Validate(verb) => verb.json,
         Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
     };
@@ -154,6 +167,7 @@ pub fn execute() -> ExitCode {
         Verb::New(verb) => verb.execute(),
         Verb::List(verb) => verb.execute(),
         Verb::Report(verb) => verb.execute(),
+        Verb::Compare(verb) => verb.execute(),
         Verb::Validate(verb) => verb.execute(),
         Verb::Schema(verb) => verb.execute(),
         Verb::Completions(verb) => verb.execute(),
@@ -181,7 +195,7 @@ impl CliError {
 
     fn exit_code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Usage { .. } => 2,
+            Self::Case(_) | Self::Compare(_) | Self::Usage { .. } => 2,
             Self::Output(error) => {
                 if error.is_refusal() {
                     2
@@ -208,6 +222,7 @@ impl CliError {
                 json!({ "status": "failed", "error": reports.first(), "errors": reports })
             }
             Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
+            Self::Compare(error) => one(error.code(), error.to_string(), Some(error.hint())),
             Self::Failed(error, summary) => summary.unwrap_or_else(|| json!({ "status": "failed", "error": error })),
             Self::Stopped(summary, _) => summary,
             Self::Usage { message, hint } => one("usage", message, Some(hint)),
@@ -226,6 +241,7 @@ impl CliError {
             Self::Stopped(_, kept) => {
                 ("stopped".into(), kept.then(|| "the finished run that the folder held is still there".into()))
             }
+            Self::Compare(error) => (format!("error: {error}"), Some(error.hint())),
             Self::Usage { message, hint, .. } => (format!("error: {message}"), Some(hint)),
             Self::Io(error) => (format!("error: {error}"), None),
             Self::Quiet(_) => return Ok(()),

@@ -4,12 +4,13 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use super::comparison;
 use crate::result::{Status, Summary};
 
 /// Files that a run folder may hold; anything else in it is not ours.
 const OURS: &[&str] = &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES];
 /// The one folder in it, of figures as PNG.
-const FIGURES: &str = "figures";
+pub(super) const FIGURES: &str = "figures";
 
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]
@@ -24,6 +25,24 @@ pub enum OutputError {
         folder: PathBuf,
         /// what is not ours
         entry: String,
+    },
+    /// a run where a comparison should be, or the other way round
+    #[error("{} holds a {holds}, not a {wanted}", folder.display())]
+    OtherKind {
+        /// the folder
+        folder: PathBuf,
+        /// run or comparison
+        holds: &'static str,
+        /// run or comparison
+        wanted: &'static str,
+    },
+    /// a comparison with other arguments
+    #[error("{} holds another comparison: {of}", folder.display())]
+    OtherComparison {
+        /// the folder
+        folder: PathBuf,
+        /// its arguments
+        of: String,
     },
     /// a run of another case, or of this one with other values
     #[error("{} holds a run of {case} with other values", folder.display())]
@@ -74,6 +93,8 @@ impl OutputError {
         match self {
             Self::NotAFolder(_) => "not-a-folder",
             Self::Foreign { .. } => "foreign-folder",
+            Self::OtherKind { .. } => "other-kind",
+            Self::OtherComparison { .. } => "other-comparison",
             Self::OtherCase { .. } => "other-case",
             Self::Unfinished { .. } => "unfinished-run",
             Self::Unwritable { .. } => "unwritable",
@@ -89,6 +110,10 @@ impl OutputError {
             Self::NotAFolder(_) | Self::Unwritable { .. } => Some("give another folder with --out"),
             Self::Foreign { .. } => {
                 Some("give another folder with --out; --force does not replace what bedload did not write")
+            }
+            Self::OtherKind { .. } => Some("give another folder with --out; --force replaces only its own kind"),
+            Self::OtherComparison { .. } => {
+                Some("give another folder with --out, or --force to replace that comparison")
             }
             Self::OtherCase { .. } => Some("give another folder with --out, or --force to replace that run"),
             Self::Unfinished { .. } => Some("--resume to go on, --force to start again"),
@@ -135,6 +160,17 @@ impl Folder {
     /// # Errors
     /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
     pub fn prepare(target: &Path, case: &str, mode: Mode) -> Result<Self, OutputError> {
+        Self::claim(target, |folder| may_replace(folder, case, mode))
+    }
+
+    /// Prepares `target`, whose content `may_replace` judges where there is any; it says in what state that is.
+    ///
+    /// # Errors
+    /// As [`Folder::prepare`].
+    pub(super) fn claim(
+        target: &Path,
+        may_replace: impl FnOnce(&Path) -> Result<Status, OutputError>,
+    ) -> Result<Self, OutputError> {
         let unwritable = |path: &Path| {
             let path = path.to_owned();
             move |error| OutputError::Unwritable { path, error }
@@ -155,7 +191,7 @@ impl Folder {
             }
             Some(false) => Self::new(target.into(), target.into(), None, false),
             Some(true) => {
-                let status = may_replace(target, case, mode)?;
+                let status = may_replace(target)?;
                 let target = fs::canonicalize(target).map_err(unwritable(target))?;
                 let place = beside(&target, "new");
                 fs::create_dir(&place).map_err(unwritable(&place))?;
@@ -229,7 +265,7 @@ impl Drop for Folder {
         }
         // Nothing can be done about a failure here, and nothing but our own files is touched.
         let Some(made) = &self.made else {
-            for name in OURS {
+            for name in OURS.iter().chain(comparison::OURS) {
                 let path = self.place.join(name);
                 let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
             }
@@ -272,20 +308,11 @@ fn beside(path: &Path, what: &str) -> PathBuf {
 
 /// Whether a folder that is not empty may be replaced by a run of the resolved case `case`; the state of the run in it.
 fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputError> {
+    if comparison::stands_in(folder) {
+        return Err(OutputError::OtherKind { folder: folder.into(), holds: "comparison", wanted: "run" });
+    }
     let summary = read_summary(folder)?;
-    let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
-    let partial = |name: &str| name.starts_with('.') && name.contains(".part-");
-    let foreign = |entry: String| Err(OutputError::Foreign { folder: folder.into(), entry });
-    for (name, is_folder) in entries(folder).map_err(unwritable)? {
-        if is_folder != (name == FIGURES) || !(OURS.contains(&name.as_str()) || partial(&name)) {
-            return foreign(name);
-        }
-    }
-    for (name, is_folder) in entries(&folder.join(FIGURES)).unwrap_or_default() {
-        if is_folder || !(name.ends_with(".png") || partial(&name)) {
-            return foreign(format!("{FIGURES}/{name}"));
-        }
-    }
+    holds_only(folder, OURS)?;
     let same = fs::read_to_string(folder.join("case.toml")).is_ok_and(|text| text == case);
     if mode.force {
         return Ok(summary.status);
@@ -296,6 +323,24 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputEr
         (true, status) => Err(OutputError::Unfinished { folder: folder.into(), status }),
         (false, _) => Err(OutputError::OtherCase { folder: folder.into(), case: summary.case }),
     }
+}
+
+/// Whether every entry of a folder is one of `ours`, a figure, or a file that was being written.
+pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError> {
+    let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
+    let partial = |name: &str| name.starts_with('.') && name.contains(".part-");
+    let foreign = |entry: String| Err(OutputError::Foreign { folder: folder.into(), entry });
+    for (name, is_folder) in entries(folder).map_err(unwritable)? {
+        if is_folder != (name == FIGURES) || !(ours.contains(&name.as_str()) || partial(&name)) {
+            return foreign(name);
+        }
+    }
+    for (name, is_folder) in entries(&folder.join(FIGURES)).unwrap_or_default() {
+        if is_folder || !(name.ends_with(".png") || partial(&name)) {
+            return foreign(format!("{FIGURES}/{name}"));
+        }
+    }
+    Ok(())
 }
 
 /// Name of each entry of a folder, and whether it is a folder.
@@ -309,7 +354,7 @@ fn entries(folder: &Path) -> io::Result<Vec<(String, bool)>> {
 }
 
 /// The summary of a run folder; anything that is not one is foreign.
-fn read_summary(folder: &Path) -> Result<Summary, OutputError> {
+pub(super) fn read_summary(folder: &Path) -> Result<Summary, OutputError> {
     let foreign = |entry: &str| OutputError::Foreign { folder: folder.into(), entry: entry.into() };
     let path = folder.join("summary.json");
     let text = fs::read_to_string(&path).map_err(|_| foreign("no summary.json"))?;

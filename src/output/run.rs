@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 
 use super::folder::{Folder, OutputError, write_whole};
 use crate::case::Case;
-use crate::plot::{self, Page};
+use crate::plot::{self, Figure, Page};
 use crate::problem::Problem;
 use crate::result::{
     Cost, ErrorReport, Failure, Outcome, Profile, Provenance, Results, Series, Status, Summary, TableError,
@@ -187,6 +187,11 @@ fn draw(
     if !png {
         return Ok(Vec::new());
     }
+    draw_png(place, shown, &figures)
+}
+
+/// Draws figures as PNG into `place`/figures; `shown` is what that place is called in the paths that are returned.
+pub(super) fn draw_png(place: &Path, shown: &Path, figures: &[Figure]) -> Result<Vec<PathBuf>, OutputError> {
     let folder = place.join("figures");
     fs::create_dir_all(&folder).map_err(|error| OutputError::Interrupted { path: folder.clone(), error })?;
     figures
@@ -207,22 +212,36 @@ fn draw(
         .collect()
 }
 
-/// Draws the report of a finished run again, from its tables alone.
+/// The summary and the profile of a run, from its folder.
 ///
 /// # Errors
-/// [`OutputError::NotARun`] if the folder does not hold a run, [`OutputError::Interrupted`] if it cannot be written.
-pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
+/// [`OutputError::NotARun`] if the folder does not hold a run.
+pub fn read_run(folder: &Path) -> Result<(Summary, Option<Profile>), OutputError> {
     let wrong = |reason: String| OutputError::NotARun { folder: folder.into(), reason };
-    let read = |name: &str| fs::read_to_string(folder.join(name)).map_err(|error| wrong(format!("{name}: {error}")));
-    let summary: Summary =
-        serde_json::from_str(&read("summary.json")?).map_err(|error| wrong(format!("summary.json: {error}")))?;
-    let text = read("case.toml")?;
+    let text = read_text(folder, "summary.json")?;
+    let summary = serde_json::from_str(&text).map_err(|error| wrong(format!("summary.json: {error}")))?;
     let profile = match fs::File::open(folder.join("profile.csv")) {
         Ok(file) => {
             Some(Profile::read_csv(BufReader::new(file)).map_err(|error| wrong(format!("profile.csv: {error}")))?)
         }
         Err(_) => None,
     };
+    Ok((summary, profile))
+}
+
+fn read_text(folder: &Path, name: &str) -> Result<String, OutputError> {
+    let wrong = |error: io::Error| OutputError::NotARun { folder: folder.into(), reason: format!("{name}: {error}") };
+    fs::read_to_string(folder.join(name)).map_err(wrong)
+}
+
+/// Draws the report of a finished run again, from its tables alone.
+///
+/// # Errors
+/// [`OutputError::NotARun`] if the folder does not hold a run, [`OutputError::Interrupted`] if it cannot be written.
+pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
+    let wrong = |reason: String| OutputError::NotARun { folder: folder.into(), reason };
+    let (summary, profile) = read_run(folder)?;
+    let text = read_text(folder, "case.toml")?;
     if let Ok(file) = fs::File::open(folder.join("series.csv")) {
         Series::read_csv(BufReader::new(file)).map_err(|error| wrong(format!("series.csv: {error}")))?;
     }

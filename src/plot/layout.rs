@@ -75,9 +75,12 @@ impl Layout {
             let x = horizontal(figure, panel, (from, from + frame_width))?;
             let size = legend_size(panel)?;
             let place = size.and_then(|size| free_place(figure, panel, (&x, &y), size));
-            if let (Some((_, height)), None) = (size, place) {
-                header = header.max(height + EDGE);
-                homeless.push((i, height));
+            if let (Some((width, height)), None) = (size, place) {
+                // its last row beside the letter of the panel, unless it would reach the next letter
+                let wide = count > 1 && LETTER + width > frame_width;
+                let above = if wide { letters } else { 0.0 };
+                header = header.max(height + EDGE + above);
+                homeless.push((i, height + above, if wide || count == 1 { 0.0 } else { LETTER }));
             }
             frames.push(Frame { x, legend: place });
         }
@@ -88,10 +91,8 @@ impl Layout {
             for frame in &mut frames {
                 frame.legend = frame.legend.map(|(x, y)| (x, y + shift));
             }
-            for (i, height) in homeless {
+            for (i, height, beside) in homeless {
                 if let Some(frame) = frames.get_mut(i) {
-                    // its last row beside the letter of the panel
-                    let beside = if count > 1 { LETTER } else { 0.0 };
                     frame.legend = Some((frame.x.span.0 + beside, header - height - 2.0));
                 }
             }
@@ -246,6 +247,21 @@ mod tests {
         let scribble = figure((0..=4000).map(|i| Some((f64::from(i % 61), f64::from(i % 67)))).collect());
         let layout = Layout::new(&scribble).unwrap();
         assert!(layout.frames[0].legend.unwrap().1 + ROW <= layout.y.span.1);
+    }
+
+    #[test]
+    fn a_legend_wider_than_its_panel_stands_above_the_letters() {
+        let mut wide = figure((0..=4000).map(|i| Some((f64::from(i % 61), f64::from(i % 67)))).collect());
+        let beside = |figure: &Figure| {
+            let layout = Layout::new(figure).unwrap();
+            let (x, y) = layout.frames[0].legend.unwrap();
+            (x - layout.frames[0].x.span.0, layout.y.span.1 - (y + ROW))
+        };
+        wide.panels = vec![wide.panels[0].clone(); 4];
+        assert!((beside(&wide).0 - LETTER).abs() < 1e-9);
+        wide.panels[0].curves[0].name = "a legend that is wider than its panel".into();
+        let (x, room) = beside(&wide);
+        assert!(x.abs() < 1e-9 && room >= ROW - 1e-9, "{x} {room}");
     }
 
     #[test]

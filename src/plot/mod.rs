@@ -1,14 +1,17 @@
 //! Figures and the page of a run, from stored results alone: [`profile_figures`] makes figures of a profile, [`svg`]
-//! and [`png`] draw them, [`report_html`] sets the page.
+//! and [`png`] draw them, [`report_html`] sets the page. [`shared_figures`] and [`document_html`] do so for several.
 
 mod axis;
 mod canvas;
+mod document;
 mod draw;
 mod figure;
+mod interface;
 mod layout;
 mod png;
 mod profile;
 mod report;
+mod several;
 mod svg;
 mod theme;
 #[cfg(test)]
@@ -17,10 +20,12 @@ mod trials;
 use std::fmt::Display;
 use std::path::PathBuf;
 
+pub use document::{Cell, Document, Section, document_html};
 pub use figure::{Axis, Curve, Dash, Figure, Level, Marker, Panel, Scale};
 pub use png::png;
 pub use profile::profile_figures;
 pub use report::{Page, report_html};
+pub use several::{Trace, shared_figures};
 pub use svg::svg;
 
 /// Why a figure could not be drawn.

@@ -4,6 +4,7 @@ use crate::result::quantity::{self, Quantity};
 use crate::result::{Profile, Summary};
 use crate::units::readable_unit;
 
+use super::interface::Interface;
 use super::{Axis, Curve, Dash, Figure, Level, Panel, Scale};
 
 /// Profiles over the elevation: velocities, shear stresses, solid fraction and flux, or what stands for them in a clear
@@ -185,38 +186,11 @@ impl<'a> Scene<'a> {
         if line.largest() == 0.0 { None } else { self.panel(title, quantity.unit, vec![line]) }
     }
 
-    /// Where the grains end between two levels, the solid fraction and what it weighs jump: the first row above, and
-    /// the limits from below and from above.
+    /// The two limits at the bed level of a quantity that jumps there.
     fn jump(&self, line: &Line) -> Option<(usize, f64, f64)> {
-        let name = line.quantity?.name;
-        if ![quantity::PHI.name, quantity::FLUX.name, quantity::U_MIXTURE.name].contains(&name) {
-            return None;
-        }
-        let bed = self.result(&quantity::BED_LEVEL)?;
-        let phi = self.column(&quantity::PHI)?;
-        let (z, slack) = (&self.z, 1e-9 * bed.abs());
-        let below = (0..z.len()).rev().find(|&i| {
-            z.get(i).is_some_and(|&z| z <= bed + slack) && phi.get(i).copied().flatten().is_some_and(|phi| phi > 0.0)
-        })?;
-        let above = below + 1;
-        if phi.get(above).copied().flatten() != Some(0.0) || z.get(above).is_none_or(|&z| z < bed - slack) {
-            return None;
-        }
-        let limit_of_phi = self.result(&quantity::PHI_INTERFACE).or(phi.get(below).copied().flatten())?;
-        let from = |values: &[Option<f64>], near: usize, next: Option<usize>| extrapolated(z, values, near, next?, bed);
-        let under = below.checked_sub(1);
-        let low = if name == quantity::PHI.name {
-            limit_of_phi
-        } else if name == quantity::FLUX.name
-            && let Some(u) = self.column(&quantity::U_PARTICLE).and_then(|u| from(u, below, under))
-        {
-            // the flux ends with the velocity that the grains have at their top
-            limit_of_phi * u
-        } else {
-            from(&line.values, below, under)?
-        };
-        // undefined above: the line ends at the interface
-        Some((above, low, from(&line.values, above, Some(above + 1)).unwrap_or(low)))
+        let interface =
+            Interface { bed: self.result(&quantity::BED_LEVEL)?, phi: self.result(&quantity::PHI_INTERFACE) };
+        interface.jump(self.profile, line.quantity?)
     }
 
     /// A panel in a unit that suits its largest value; `None` without curves.
@@ -277,16 +251,8 @@ fn distinct(lines: Vec<Line>) -> Vec<Line> {
     kept
 }
 
-/// Linear extrapolation to `to` from the rows `near` and `next`; the value in `near` where `next` has none.
-fn extrapolated(z: &[f64], values: &[Option<f64>], near: usize, next: usize, to: f64) -> Option<f64> {
-    let at = |i: usize| Some((*z.get(i)?, values.get(i).copied().flatten()?));
-    let (z1, b) = at(near)?;
-    let slope = at(next).filter(|(z0, _)| *z0 != z1).map_or(0.0, |(z0, a)| (b - a) / (z1 - z0));
-    Some(b + slope * (to - z1))
-}
-
 /// `(a) velocity, (b) shear stress`.
-fn sentence(panels: &[Panel]) -> String {
+pub(super) fn sentence(panels: &[Panel]) -> String {
     let lettered = |(i, panel): (usize, &Panel)| match panels.len() {
         1 => panel.x.title.clone(),
         _ => format!("({}) {}", char::from(b'a'.saturating_add(i as u8)), panel.x.title),

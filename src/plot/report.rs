@@ -31,18 +31,7 @@ pub struct Page<'a> {
 pub fn report_html(page: &Page<'_>) -> String {
     let summary = page.summary;
     let case = escape(&summary.case);
-    let mut html = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
-         <meta name=\"color-scheme\" content=\"light dark\"><meta name=\"generator\" content=\"bedload {}\">\
-         <title>{case} · bedload</title>\n<style>:root{{{}}}\n@media(prefers-color-scheme:dark){{:root{{{}}}}}\n\
-         @media print{{:root{{{}}}}}\n{}</style></head>\n<body><main>\n",
-        escape(&summary.provenance.bedload),
-        theme::variables(false),
-        theme::variables(true),
-        theme::variables(false),
-        include_str!("report.css"),
-    );
+    let mut html = head(&summary.case, &summary.provenance.bedload);
     let (word, class) = match summary.status {
         Status::Done => ("done", "good"),
         Status::Running => ("running", "warn"),
@@ -78,6 +67,23 @@ pub fn report_html(page: &Page<'_>) -> String {
         escape(page.case_toml.trim_end())
     );
     html
+}
+
+/// Everything before the content: title, style in light and dark. `version` of bedload made it.
+pub(super) fn head(title: &str, version: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
+         <meta name=\"color-scheme\" content=\"light dark\"><meta name=\"generator\" content=\"bedload {}\">\
+         <title>{} · bedload</title>\n<style>:root{{{}}}\n@media(prefers-color-scheme:dark){{:root{{{}}}}}\n\
+         @media print{{:root{{{}}}}}\n{}</style></head>\n<body><main>\n",
+        escape(version),
+        escape(title),
+        theme::variables(false),
+        theme::variables(true),
+        theme::variables(false),
+        include_str!("report.css"),
+    )
 }
 
 /// What went wrong, before everything else, and whether a state was drawn nevertheless.
@@ -185,7 +191,7 @@ fn balances(summary: &Summary) -> String {
     html + "</tbody></table></div></section>\n"
 }
 
-fn figures(figures: &[Figure]) -> String {
+pub(super) fn figures(figures: &[Figure]) -> String {
     let mut html = String::new();
     for figure in figures {
         let drawing = svg(figure).unwrap_or_else(|error| format!("<p>{}</p>", escape(&error.to_string())));
@@ -231,7 +237,7 @@ fn origin(summary: &Summary) -> String {
 }
 
 /// A titled list of names and texts; texts that are empty are left out.
-fn pairs(title: &str, rows: &[(String, String)]) -> String {
+pub(super) fn pairs(title: &str, rows: &[(String, String)]) -> String {
     let mut items = String::new();
     for (name, text) in rows.iter().filter(|(_, text)| !text.is_empty()) {
         items += &format!("<dt>{}</dt><dd>{}</dd>", escape(name), escape(text));
@@ -250,7 +256,7 @@ fn duration(seconds: f64) -> String {
 }
 
 /// `3.310e-5 m²/s` as it is printed: 3.310 × 10 to the −5.
-fn typeset(number: &str) -> String {
+pub(super) fn typeset(number: &str) -> String {
     let (mantissa, unit) = number.split_once(' ').unwrap_or((number, ""));
     let minus = |text: &str| escape(text).replace('-', "−");
     let figures = match mantissa.split_once('e') {

@@ -12,5 +12,5 @@ pub use outcome::{Failure, Outcome, SolveError};
 pub use provenance::Provenance;
 pub use quantity::Quantity;
 pub use summary::{Balance, Cost, ErrorReport, Reported, Results, Status, Summary, Validity};
-pub use table::{Profile, Series, Table, TableError};
+pub use table::{Profile, Series, Table, TableError, Values, read_columns};
 pub use watch::{Quiet, Snapshot, Watch};

@@ -136,30 +136,40 @@ impl Table {
     /// # Errors
     /// An unknown header, a field that is not a finite number, malformed CSV, an unreadable file.
     pub fn read_csv(from: impl BufRead, catalogue: &'static [&'static Quantity]) -> Result<Self, TableError> {
-        let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(from);
-        let quantities = reader
-            .headers()?
-            .iter()
-            .map(|name| quantity::find(catalogue, name).ok_or_else(|| TableError::UnknownColumn { name: name.into() }))
-            .collect::<Result<Vec<_>, _>>()?;
-        let mut values: Vec<Vec<Option<f64>>> = vec![Vec::new(); quantities.len()];
-        for record in reader.records() {
-            let record = record?;
-            let line = record.position().map_or(0, csv::Position::line);
-            for (column, field) in values.iter_mut().zip(&record) {
-                let value = match field {
-                    "" => None,
-                    text => Some(text.parse().map_err(|_| TableError::NotANumber { line, field: text.into() })?),
-                };
-                column.push(value);
-            }
-        }
         let mut table = Self::default();
-        for (quantity, values) in quantities.into_iter().zip(values) {
+        let unknown = |name: &String| TableError::UnknownColumn { name: name.clone() };
+        let known = |(name, values): (String, Values)| {
+            quantity::find(catalogue, &name).map(|quantity| (quantity, values)).ok_or_else(|| unknown(&name))
+        };
+        for (quantity, values) in read_columns(from)?.into_iter().map(known).collect::<Result<Vec<_>, _>>()? {
             table.push(quantity, values)?;
         }
         Ok(table)
     }
+}
+
+/// One value per row, `None` where there is none.
+pub type Values = Vec<Option<f64>>;
+
+/// The columns of a CSV text under their headers, whatever these say: `#` lines are comments, an empty field is undefined.
+///
+/// # Errors
+/// A field that is not a number, rows of different lengths, an unreadable file.
+pub fn read_columns(from: impl BufRead) -> Result<Vec<(String, Values)>, TableError> {
+    let mut reader = csv::ReaderBuilder::new().comment(Some(b'#')).trim(csv::Trim::All).from_reader(from);
+    let mut columns: Vec<(String, Values)> =
+        reader.headers()?.iter().map(|name| (name.to_owned(), Vec::new())).collect();
+    for record in reader.records() {
+        let record = record?;
+        let line = record.position().map_or(0, csv::Position::line);
+        for ((_, values), field) in columns.iter_mut().zip(&record) {
+            values.push(match field {
+                "" => None,
+                text => Some(text.parse().map_err(|_| TableError::NotANumber { line, field: text.into() })?),
+            });
+        }
+    }
+    Ok(columns)
 }
 
 /// The shortest text that reads back as the same `f64`.
@@ -236,13 +246,13 @@ impl Profile {
     /// Linear interpolation of a column at elevation `z` [m]; `None` outside the levels or beside an undefined value.
     #[must_use]
     pub fn at(&self, quantity: &Quantity, z: f64) -> Option<f64> {
-        let (levels, values) = (self.axis(), self.get(quantity)?);
-        let above = levels.partition_point(|&level| level < z);
-        if levels.get(above).is_some_and(|&level| level <= z) {
+        let (levels, values) = (self.get(&quantity::Z)?, self.get(quantity)?);
+        let above = levels.partition_point(|level| level.is_some_and(|level| level < z));
+        if levels.get(above).copied().flatten().is_some_and(|level| level <= z) {
             return values[above];
         }
         let below = above.checked_sub(1)?;
-        let (z0, z1) = (levels[below], *levels.get(above)?);
+        let (z0, z1) = (levels[below]?, (*levels.get(above)?)?);
         let (a, b) = (values[below]?, values[above]?);
         Some(a + (b - a) * (z - z0) / (z1 - z0))
     }

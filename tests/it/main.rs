@@ -6,6 +6,7 @@ mod architecture;
 mod cases_bad;
 mod cases_good;
 mod cli;
+mod compare;
 mod folder;
 mod interruption;
 mod mutate;

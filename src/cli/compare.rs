@@ -1,0 +1,241 @@
+//! `bedload compare`: cases, runs and measured profiles side by side.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::{Args, ValueEnum};
+use serde_json::{Value, json};
+
+use super::progress::Progress;
+use super::{CliError, answer, say};
+use crate::case::Case;
+use crate::compare::{Align, CompareError, Comparison, NormRow, Request, Subject, compare, data, percent};
+use crate::output::{prepare_comparison, read_run, write_comparison};
+use crate::problem::Problem;
+use crate::result::{Cost, ErrorReport, Provenance, Status, quantity};
+use crate::runtime::cost::peak_memory_mb;
+use crate::units::significant;
+
+/// Set cases, runs and measured profiles side by side: norms, numbers, figure. The first one is the reference.
+#[derive(Debug, Args)]
+pub(super) struct Compare {
+    /// Cases, shipped or as files, which are run; or folders of runs, which are read
+    #[arg(value_name = "CASE|RUN")]
+    subjects: Vec<String>,
+    /// A measured profile as CSV: columns by their names in profile.csv, <name>_err is one sigma
+    #[arg(long, value_name = "FILE.csv")]
+    data: Vec<String>,
+    /// Where z is 0
+    #[arg(long, value_enum, default_value_t = Datum::Bottom)]
+    align: Datum,
+    /// Divide by flow height, mean velocity and fluid stress at the bed of each one
+    #[arg(long)]
+    scale: bool,
+    /// Folder to write [default: runs/compare-A-B]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Draw the figures as PNG, too
+    #[arg(long)]
+    png: bool,
+    /// No progress and no closing lines
+    #[arg(long)]
+    quiet: bool,
+    /// Print compare.json as one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+    /// Replace whatever comparison the folder holds
+    #[arg(long)]
+    force: bool,
+}
+
+/// [`Align`] on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum Datum {
+    /// At the bottom of the sediment, as every model reports it
+    Bottom,
+    /// At the bed level of each one
+    Bed,
+    /// As it is, wherever that may be
+    None,
+}
+
+/// Something to compare, checked but not yet run.
+enum Loaded {
+    Case(Box<(Case, Problem)>),
+    Ready(Subject),
+}
+
+impl Compare {
+    pub(super) fn execute(self) -> Result<(), CliError> {
+        let start = Instant::now();
+        let given = self.subjects.len() + self.data.len();
+        if given < 2 {
+            return Err(CompareError::TooFew { given }.into());
+        }
+        let request = self.request();
+        let (loaded, names) = self.load()?;
+        let mut progress = Progress::new(self.quiet);
+        let out = self.out.clone().unwrap_or_else(|| Comparison::folder(&names, request.align, request.scale));
+        let folder = prepare_comparison(&out, &request, self.force)?;
+        let provenance = Provenance { source: self.command(""), ..Provenance::of_this_program() };
+        let mut subjects = Vec::with_capacity(given);
+        for one in loaded {
+            subjects.push(match one {
+                Loaded::Ready(subject) => subject,
+                Loaded::Case(case) => solve(&case.0, &case.1, &mut progress)?,
+            });
+        }
+        drop(progress);
+        let comparison = compare(subjects, request.align, request.scale)?;
+        let cost = Cost {
+            solve_s: comparison.subjects.iter().map(|s| s.solve_s).sum(),
+            total_s: start.elapsed().as_secs_f64(),
+            peak_memory_mb: peak_memory_mb(),
+            work_units: comparison.subjects.iter().map(|s| s.profile.rows() as f64).sum(),
+        };
+        let figures = write_comparison(folder, &comparison, &request, &cost, &provenance, self.png)?;
+        if self.json {
+            let mut value = comparison.to_json(&request, &cost, &provenance);
+            if let Value::Object(object) = &mut value {
+                object.insert("out".into(), out.display().to_string().into());
+            }
+            return Ok(answer(&value)?);
+        }
+        if self.quiet {
+            return Ok(());
+        }
+        Ok(say(&self.closing(&comparison, &cost, &out, !figures.is_empty()))?)
+    }
+
+    fn request(&self) -> Request {
+        let align = match self.align {
+            Datum::Bottom => Align::Bottom,
+            Datum::Bed => Align::Bed,
+            Datum::None => Align::None,
+        };
+        Request { subjects: self.subjects.clone(), data: self.data.clone(), align, scale: self.scale }
+    }
+
+    /// Reads and checks everything before anything is run; the names are those of the default folder.
+    fn load(&self) -> Result<(Vec<Loaded>, Vec<String>), CliError> {
+        let (mut loaded, mut names) = (Vec::new(), Vec::new());
+        for argument in &self.subjects {
+            let path = Path::new(argument);
+            if path.is_dir() {
+                let (summary, profile) = read_run(path)?;
+                names.push(path.file_name().map_or(summary.case.clone(), |n| n.to_string_lossy().into_owned()));
+                loaded.push(Loaded::Ready(Subject::of_run(argument, summary, profile)?));
+            } else if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
+                let message = format!("{argument} is a table, not a case or a run");
+                return Err(CliError::Usage { message, hint: format!("give it as --data {argument}") });
+            } else {
+                let case = Case::load(argument, &[])?;
+                let problem = Problem::new(&case)?;
+                names.push(case.name.clone());
+                loaded.push(Loaded::Case(Box::new((case, problem))));
+            }
+        }
+        for file in &self.data {
+            let path = Path::new(file);
+            loaded.push(Loaded::Ready(data::read(path).map_err(CompareError::from)?));
+            names.push(path.file_stem().map_or_else(|| "data".into(), |s| s.to_string_lossy().into_owned()));
+        }
+        Ok((loaded, names))
+    }
+
+    /// The command that makes this comparison, with something added to it.
+    fn command(&self, added: &str) -> String {
+        let plain = |s: &str| !s.is_empty() && s.chars().all(|c| c.is_alphanumeric() || "/._-+,:=".contains(c));
+        let quoted = |s: &String| if plain(s) { s.clone() } else { format!("'{}'", s.replace('\'', "'\\''")) };
+        let mut words = vec!["bedload compare".to_owned()];
+        words.extend(self.subjects.iter().map(quoted));
+        words.extend(self.data.iter().map(|d| format!("--data {}", quoted(d))));
+        if let (Datum::Bed | Datum::None, Some(value)) = (self.align, self.align.to_possible_value()) {
+            words.push(format!("--align {}", value.get_name()));
+        }
+        if self.scale {
+            words.push("--scale".into());
+        }
+        if !added.is_empty() {
+            words.push(added.into());
+        }
+        words.join(" ")
+    }
+
+    /// What a reader wants to know first, in at most twelve lines.
+    fn closing(&self, comparison: &Comparison, cost: &Cost, out: &Path, drawn: bool) -> String {
+        const MOST: usize = 6;
+        let mut lines = Vec::new();
+        let mut line = |label: &str, text: String| lines.push(format!("  {label:<16} {text}"));
+        let others = comparison.subjects.iter().enumerate().skip(1);
+        for (i, subject) in others.clone().take(MOST) {
+            line("against it", format!("{}: {}", subject.name, headline(comparison, i)));
+        }
+        let left = others.count().saturating_sub(MOST);
+        if left > 0 {
+            line("", format!("and {left} more in norms.csv"));
+        }
+        let warnings = comparison.warnings();
+        if let Some(first) = warnings.first() {
+            let more =
+                if warnings.len() > 1 { format!(" (1 of {}, see the report)", warnings.len()) } else { String::new() };
+            line("bear in mind", format!("{first}{more}"));
+        }
+        line("cost", format!("{:.2} ms to solve, {:.1} ms in all", 1e3 * cost.solve_s, 1e3 * cost.total_s));
+        line("report", format!("{}/report.html", out.display()));
+        let apart = warnings.iter().any(|w| w.contains("--align bed"));
+        match (apart && self.align != Datum::Bed, drawn) {
+            (true, _) => line("next", self.command("--align bed")),
+            (false, true) => line("figures", format!("{}/figures/", out.display())),
+            (false, false) => line("next", self.command("--png")),
+        }
+        let reference = comparison.subjects.first().map_or("", |s| s.name.as_str());
+        let units = if comparison.scaled { "scaled" } else { "in SI" };
+        format!("{reference} is the reference; {}, {units}\n{}\n", comparison.align.datum(), lines.join("\n"))
+    }
+}
+
+/// Runs a case. A failure ends the comparison, for what is left of it would not be what was asked for.
+fn solve(case: &Case, problem: &Problem, progress: &mut Progress) -> Result<Subject, CliError> {
+    let solving = Instant::now();
+    let outcome = crate::run(problem, progress).map_err(|failure| {
+        let error = ErrorReport {
+            code: failure.error.code().into(),
+            message: format!("{}: {}", case.source, failure.error),
+            path: None,
+            line: None,
+            allowed: None,
+            hint: Some(failure.error.hint()),
+        };
+        CliError::Failed(error, None)
+    })?;
+    if outcome.status == Status::Stopped {
+        return Err(CliError::Stopped(json!({ "status": Status::Stopped }), false));
+    }
+    let solve_s = solving.elapsed().as_secs_f64();
+    Ok(Subject::of_case(&case.name, &case.source, problem.model_name(), outcome, solve_s)?)
+}
+
+/// A velocity, or else the first column in common, and the transport rate.
+fn headline(comparison: &Comparison, subject: usize) -> String {
+    let rows: Vec<&NormRow> =
+        comparison.norms.iter().filter(|n| n.subject == subject && n.deviation.is_some()).collect();
+    let column = |wanted: &dyn Fn(&NormRow) -> bool| rows.iter().find(|n| wanted(n));
+    let velocity = column(&|n| n.quantity.name == quantity::U_MIXTURE.name)
+        .or(column(&|n| n.quantity.unit == quantity::U_MIXTURE.unit))
+        .or(rows.first());
+    let mut parts = Vec::new();
+    if let Some((row, d)) = velocity.and_then(|n| Some((n, n.deviation?))) {
+        let l2 = d.l2_relative.map_or_else(String::new, |x| format!("L2 {}, ", percent(x)));
+        let largest = comparison.value(d.linf, row.quantity);
+        let at = comparison.value(d.linf_at, &quantity::Z);
+        parts.push(format!("{} {l2}at most {largest} (z {at}) over {} levels", row.quantity.title, d.levels));
+        parts.extend(row.sigmas.map(|s| format!("{} sigma", significant(s.rms, 3))));
+    }
+    let rate = comparison.numbers.iter().find(|n| n.quantity.name == quantity::TRANSPORT_RATE.name);
+    if let Some(difference) = rate.and_then(|n| n.differences.get(subject).copied().flatten()) {
+        let sign = if difference > 0.0 { "+" } else { "" };
+        parts.push(format!("{} {sign}{}", quantity::TRANSPORT_RATE.title, percent(difference)));
+    }
+    if parts.is_empty() { "no common elevation".into() } else { parts.join("; ") }
+}

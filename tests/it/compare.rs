@@ -1,0 +1,208 @@
+//! `bedload compare` as a person runs it: what it writes, what it refuses, with which code.
+
+use serde_json::Value;
+
+use crate::support::{Scratch, comparable};
+
+const TWO: &str = "exact_1d_ouriemi";
+const MIXED: &str = "exact_1d_ouriemi_mixed";
+
+#[track_caller]
+fn exits(scratch: &Scratch, code: i32, arguments: &[&str]) -> (String, String) {
+    let answer = scratch.bedload(arguments).exits(code);
+    (answer.out, answer.err)
+}
+
+#[track_caller]
+fn answer(scratch: &Scratch, arguments: &[&str]) -> Value {
+    scratch.bedload(arguments).exits(0).json()
+}
+
+fn norm<'a>(answer: &'a Value, column: &str) -> &'a Value {
+    answer["norms"].as_array().unwrap().iter().find(|n| n["column"] == column).unwrap()
+}
+
+#[test]
+fn two_cases_give_a_folder_and_at_most_twelve_lines() {
+    let scratch = Scratch::new();
+    let (out, err) = exits(&scratch, 0, &["compare", TWO, MIXED, "--png"]);
+    assert!((4..=12).contains(&out.lines().count()) && err.is_empty(), "{out}{err}");
+    assert!(out.starts_with("exact_1d_ouriemi is the reference"), "{out}");
+    let target = "runs/compare-exact_1d_ouriemi-exact_1d_ouriemi_mixed";
+    assert_eq!(scratch.names(target), ["compare.json", "figures", "norms.csv", "report.html"]);
+    assert!(scratch.names(&format!("{target}/figures")).contains(&"profiles.png".into()));
+    assert_eq!(scratch.names("runs").len(), 1, "nothing is left beside it");
+    let page = scratch.read(&format!("{target}/report.html"));
+    let order =
+        ["<h1>exact_1d_ouriemi against", "Profiles</h2>", "Numbers</h2>", "<svg class=\"plot\"", "Provenance</h2>"];
+    let places: Vec<usize> = order.iter().map(|text| page.find(text).unwrap()).collect();
+    assert!(places.is_sorted(), "{places:?}");
+    let table = scratch.read(&format!("{target}/norms.csv"));
+    assert!(
+        table.contains("\nsubject,column,unit,levels,")
+            && table.contains("\nexact_1d_ouriemi_mixed,u_mixture_m_s,m/s,")
+    );
+}
+
+#[test]
+fn json_is_what_the_folder_holds_and_says_how_far_two_forms_are_apart() {
+    let scratch = Scratch::new();
+    let found = answer(&scratch, &["compare", TWO, MIXED, "--json", "--out", "c"]);
+    let mut written: Value = serde_json::from_str(&scratch.read("c/compare.json")).unwrap();
+    written["out"] = "c".into();
+    assert_eq!(found, written);
+    assert_eq!((found["status"].as_str(), found["reference"].as_str()), (Some("done"), Some(TWO)));
+    let u = norm(&found, "u_mixture_m_s");
+    let l2 = u["l2_relative"].as_f64().unwrap();
+    assert!((1e-5..1e-3).contains(&l2), "the slip is small at d/H = 1/30: {l2}");
+    assert_eq!(norm(&found, "phi")["linf"].as_f64(), Some(0.0), "nothing is interpolated across the bed level");
+    let rate = found["numbers"].as_array().unwrap().iter().find(|n| n["name"] == "transport_rate_m2_s").unwrap();
+    let share = rate["relative_differences"][1].as_f64().unwrap();
+    let (a, b) = (rate["values"][0].as_f64().unwrap(), rate["values"][1].as_f64().unwrap());
+    assert!((share - (b - a) / a).abs() < 1e-15 && (1e-4..1e-3).contains(&share), "{share}");
+}
+
+#[test]
+fn a_run_and_its_own_case_differ_by_exactly_nothing() {
+    let scratch = Scratch::new();
+    exits(&scratch, 0, &["run", TWO, "--quiet"]);
+    let run = "runs/exact_1d_ouriemi";
+    for more in [&[][..], &["--align", "bed"], &["--scale"], &["--align", "none", "--scale"]] {
+        let out = format!("c{}", more.join(""));
+        let arguments = [&["compare", TWO, run, "--json", "--out", &out], more].concat();
+        let found = answer(&scratch, &arguments);
+        assert_eq!(found["subjects"][0]["name"], TWO);
+        assert_eq!(found["subjects"][1]["name"], run);
+        for row in found["norms"].as_array().unwrap() {
+            assert_eq!(
+                (&row["l2_relative"], &row["linf"], &row["bias"]),
+                (&0.0.into(), &0.0.into(), &0.0.into()),
+                "{row}"
+            );
+        }
+        for row in found["numbers"].as_array().unwrap() {
+            assert_eq!(row["relative_differences"][1], 0.0, "{row}");
+        }
+    }
+}
+
+#[test]
+fn identical_comparisons_differ_only_in_cost_and_provenance_and_replace_each_other() {
+    let scratch = Scratch::new();
+    let found = [0, 1].map(|_| comparable(answer(&scratch, &["compare", TWO, MIXED, "--json", "--out", "c"])));
+    assert_eq!(found[0], found[1]);
+}
+
+#[test]
+fn measured_points_count_in_sigmas() {
+    let scratch = Scratch::new();
+    exits(&scratch, 0, &["run", TWO, "--quiet", "--out", "r"]);
+    let table = scratch.read("r/profile.csv");
+    let mut rows = table.lines().filter(|l| !l.starts_with('#')).map(|l| l.split(',').collect::<Vec<_>>());
+    let header = rows.next().unwrap();
+    let u = header.iter().position(|h| *h == "u_mixture_m_s").unwrap();
+    // every tenth level, two sigmas beside the model, in reversed order
+    let mut lines: Vec<String> =
+        rows.step_by(10).map(|row| format!("{},{:?},0.001", row[0], row[u].parse::<f64>().unwrap() + 0.002)).collect();
+    lines.reverse();
+    let head = "# Two sigmas\n# made up\n# transport_rate_m2_s = 2e-5 ± 1e-6\nz_m,u_mixture_m_s,u_mixture_m_s_err\n";
+    scratch.write("points.csv", format!("{head}{}\n", lines.join("\n")));
+    let found = answer(&scratch, &["compare", TWO, "--data", "points.csv", "--json"]);
+    assert_eq!(found["subjects"][1]["label"], "Two sigmas");
+    let u = norm(&found, "u_mixture_m_s");
+    assert_eq!((&u["levels"], &u["levels_with_errors"]), (&lines.len().into(), &lines.len().into()));
+    assert_eq!(u["levels_of"], "Two sigmas");
+    for (key, value) in [("rms_sigma", 2.0), ("bias", 0.002), ("linf", 0.002)] {
+        assert!((u[key].as_f64().unwrap() / value - 1.0).abs() < 1e-9, "{key} = {}", u[key]);
+    }
+    assert_eq!(found["numbers"][0]["stderr"][1], 1e-6);
+    let (out, _) = exits(&scratch, 0, &["compare", TWO, "--data", "points.csv"]);
+    assert!(out.contains("2.00 sigma"), "{out}");
+}
+
+#[test]
+fn wrong_input_exits_2_and_writes_nothing() {
+    let scratch = Scratch::new();
+    scratch.write("typo.csv", "z_m,u_mixture_ms\n0,1\n");
+    scratch.write("nowhere.csv", "z_m,phi\n7,0.1\n8,0.1\n");
+    scratch.write("bare.csv", "z_m,u_mixture_m_s\n0,0\n0.01,0.02\n");
+    scratch.write("high.csv", "# flow_height_m = 0.03\nz_m,u_mixture_m_s\n0,0\n0.01,0.02\n");
+    std::fs::create_dir(scratch.path("empty")).unwrap();
+    let before = scratch.names(".");
+    for (arguments, code, words) in [
+        (&[][..], "too-few", "a comparison takes at least two, 0 given"),
+        (&[TWO], "too-few", "1 given"),
+        (&[TWO, "--data", "typo.csv"], "data-unknown-column", "did you mean u_mixture_m_s? columns are z_m, phi,"),
+        (&[TWO, "--data", "missing.csv"], "data-unreadable", "missing.csv"),
+        (&[TWO, "bare.csv"], "usage", "--data bare.csv"),
+        (&[TWO, "empty"], "not-a-run", "empty is not a run"),
+        (&[TWO, "--data", "nowhere.csv"], "nothing-shared", "common elevation"),
+        (&[TWO, "--data", "bare.csv", "--align", "bed"], "no-number", "bare does not report bed_level_m"),
+        (&[TWO, "--data", "bare.csv", "--scale"], "no-number", "# flow_height_m = ..."),
+        (&[TWO, "--data", "high.csv", "--scale"], "no-scale", "high does not have mean_velocity_m_s, by which --scale"),
+        (&[TWO, "exact_1d_ouriemie"], "", "exact_1d_ouriemi"),
+    ] {
+        let arguments = [&["compare"], arguments].concat();
+        let (out, err) = exits(&scratch, 2, &arguments);
+        assert!(out.is_empty() && err.contains(words), "{arguments:?}: {err}");
+        let (out, _) = exits(&scratch, 2, &[&arguments[..], &["--json"]].concat());
+        let found: Value = serde_json::from_str(&out).unwrap();
+        assert_eq!(found["status"], "failed");
+        assert!(code.is_empty() || found["error"]["code"] == code, "{arguments:?}: {found:#}");
+        assert_eq!(scratch.names("."), before, "{arguments:?}");
+    }
+}
+
+#[test]
+fn a_method_that_fails_exits_3_with_its_reason() {
+    let scratch = Scratch::new();
+    exits(&scratch, 0, &["new", MIXED, "steep.toml"]);
+    let steep = scratch.read("steep.toml").replace("1471.5 Pa/m", "5000 Pa/m");
+    scratch.write("steep.toml", steep);
+    let (_, err) = exits(&scratch, 3, &["compare", MIXED, "steep.toml", "--out", "c"]);
+    assert!(err.starts_with("failed: steep.toml: "), "{err}");
+    let (out, _) = exits(&scratch, 3, &["compare", MIXED, "steep.toml", "--out", "c", "--json"]);
+    let found: Value = serde_json::from_str(&out).unwrap();
+    assert_eq!(found["status"], "failed");
+    assert!(!scratch.path("c").exists());
+    // its folder says failed, which is nothing to compare with
+    exits(&scratch, 3, &["run", "steep.toml", "--out", "r", "--quiet"]);
+    let (_, err) = exits(&scratch, 2, &["compare", MIXED, "r"]);
+    assert!(err.contains("r is failed, not done"), "{err}");
+}
+
+#[test]
+fn a_folder_that_is_not_this_comparison_is_refused() {
+    let scratch = Scratch::new();
+    exits(&scratch, 0, &["compare", TWO, MIXED, "--out", "c", "--quiet"]);
+    let other = ["compare", MIXED, TWO, "--out", "c", "--quiet"];
+    let (_, err) = exits(&scratch, 2, &other);
+    assert!(err.contains("holds another comparison: exact_1d_ouriemi, exact_1d_ouriemi_mixed"), "{err}");
+    exits(&scratch, 2, &["compare", TWO, MIXED, "--out", "c", "--align", "bed"]);
+    exits(&scratch, 0, &[&other[..], &["--force"]].concat());
+    // runs and comparisons do not replace each other, even by force
+    exits(&scratch, 0, &["run", TWO, "--out", "r", "--quiet"]);
+    let (_, err) = exits(&scratch, 2, &["compare", TWO, MIXED, "--out", "r", "--force"]);
+    assert!(err.contains("r holds a run, not a comparison"), "{err}");
+    let (_, err) = exits(&scratch, 2, &["run", TWO, "--out", "c", "--force"]);
+    assert!(err.contains("c holds a comparison, not a run"), "{err}");
+    assert_eq!(scratch.names("r").len(), 5);
+    // what is not ours stays
+    scratch.write("c/notes.txt", "mine");
+    let (_, err) = exits(&scratch, 2, &[&other[..], &["--force"]].concat());
+    assert!(err.contains("it holds notes.txt"), "{err}");
+    std::fs::create_dir(scratch.path("foreign")).unwrap();
+    scratch.write("foreign/compare.json", "{}");
+    exits(&scratch, 2, &["compare", TWO, MIXED, "--out", "foreign", "--force"]);
+    assert_eq!(scratch.read("foreign/compare.json"), "{}");
+}
+
+#[test]
+fn nothing_from_data_becomes_markup() {
+    let scratch = Scratch::new();
+    let text = "# </title><script>alert(1)</script>\nz_m,u_mixture_m_s\n0,0\n0.01,0.02\n";
+    scratch.write("x.csv", text);
+    exits(&scratch, 0, &["compare", TWO, "--data", "x.csv", "--out", "c", "--quiet"]);
+    let page = scratch.read("c/report.html");
+    assert!(!page.contains("<script") && page.contains("&lt;script&gt;"));
+}
