@@ -32,6 +32,7 @@
 pub mod case;
 pub mod cli;
 pub mod closures;
+pub mod column;
 pub mod continuum;
 pub mod numerics;
 pub mod output;

@@ -3,3 +3,4 @@
 pub mod levels;
 pub mod quadrature;
 pub mod root;
+pub mod thomas;
