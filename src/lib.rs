@@ -13,6 +13,7 @@
 //! | [`closures`], [`result`] | laws; profiles, series, summaries |
 //! | [`case`] | case files: text, spans, schema, diagnostics. The only room that knows TOML |
 //! | [`problem`] | checked, immutable values in SI |
+//! | [`column`] | the fluid of one dimension: its momentum among whatever grains |
 //! | [`continuum`] | models |
 //! | `run` | [`run()`]: the one entry point |
 //! | [`plot`] | figures and pages |
@@ -33,6 +34,7 @@
 pub mod case;
 pub mod cli;
 pub mod closures;
+pub mod column;
 pub mod compare;
 pub mod continuum;
 pub mod numerics;

@@ -9,6 +9,7 @@ pub mod friction;
 pub mod mixing_length;
 pub mod mixture_viscosity;
 pub mod regularisation;
+pub mod side_wall;
 pub mod wall;
 
 /// How far a closure has been tested here.
@@ -78,8 +79,14 @@ pub static CATALOGUE: &[&Info] = &[
     &mixture_viscosity::boyer::INFO,
     &drag::none::INFO,
     &drag::carman_kozeny::INFO,
+    &mixing_length::none::INFO,
     &mixing_length::prandtl::INFO,
+    &mixing_length::li_sawamoto::INFO,
     &wall::rough::INFO,
+    &side_wall::none::INFO,
+    &side_wall::graf_altinakar_published::INFO,
+    &side_wall::graf_altinakar::INFO,
+    &side_wall::blasius::INFO,
 ];
 
 #[cfg(test)]

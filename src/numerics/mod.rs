@@ -4,3 +4,4 @@ pub mod block_thomas;
 pub mod levels;
 pub mod quadrature;
 pub mod root;
+pub mod thomas;

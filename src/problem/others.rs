@@ -9,9 +9,12 @@ use crate::case::scene::{BagnoldFilm, Bingham, BinghamPlane as BinghamScene, Log
 use crate::case::tables::SlopeDefinition;
 use crate::case::tables::{BinghamFluid, PlaneFlow};
 use crate::closures::friction::{self, Friction, MuI};
-use crate::closures::mixing_length::{MixingLength, Prandtl};
+use crate::closures::mixing_length::{self, MixingLength, Prandtl};
 use crate::closures::regularisation::Regularisation;
 use crate::closures::wall::{Rough, Wall};
+
+/// Name of the scene of the rough wall.
+const LOG_LAW: &str = "exact/log-law";
 
 /// What drives the Bingham fluid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -152,7 +155,15 @@ pub(super) fn bagnold(scene: &BagnoldFilm, model: &str, faults: &mut Faults) -> 
 
 pub(super) fn log_law(scene: &LogLaw, faults: &mut Faults) -> Option<RoughWall> {
     let LogLaw { fluid, flow, closures, .. } = scene;
-    let MixingLength::Prandtl(mixing_length) = closures.mixing_length;
+    let mixing_length = match closures.mixing_length {
+        MixingLength::Prandtl(law) => law,
+        other => {
+            let (law, allowed) = (other.info().law, vec![mixing_length::prandtl::INFO.law]);
+            let fault = Fault::LawMismatch { family: "mixing_length", law, model: LOG_LAW.into(), allowed };
+            faults.push(("closures.mixing_length.law", fault));
+            return None;
+        }
+    };
     let Wall::Rough(wall) = closures.wall;
     if wall.roughness_length() >= flow.height {
         let fault = Fault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
@@ -166,4 +177,24 @@ pub(super) fn log_law(scene: &LogLaw, faults: &mut Faults) -> Option<RoughWall> 
         mixing_length,
         wall,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::case::Case;
+    use crate::problem::Problem;
+
+    #[test]
+    fn the_log_law_takes_the_mixing_length_of_a_wall_only() {
+        let with = |settings: &[&str]| {
+            let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
+            let case = Case::load("exact_1d_loglaw", &settings).unwrap();
+            Problem::new(&case)
+        };
+        assert!(with(&["closures.mixing_length.law=prandtl"]).is_ok());
+        let refused =
+            with(&["closures.mixing_length={ law = \"li-sawamoto\", phi_max = 0.6, below_packed = \"zero\" }"]);
+        let message = format!("{:?}", refused.unwrap_err());
+        assert!(message.contains("LawMismatch") && message.contains("li-sawamoto"), "{message}");
+    }
 }

@@ -4,7 +4,8 @@ use serde_json::{Value, json};
 
 use crate::support::Scratch;
 
-const VERBS: &[&str] = &["run", "check", "explain", "new", "list", "report", "validate", "schema", "completions"];
+const VERBS: &[&str] =
+    &["run", "check", "explain", "new", "list", "report", "compare", "validate", "schema", "completions"];
 
 #[test]
 fn every_verb_has_help() {

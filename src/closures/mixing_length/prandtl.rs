@@ -11,6 +11,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::karman;
 use crate::closures::{Info, Standing};
 
 /// Catalogue entry.
@@ -30,10 +31,6 @@ pub struct Prandtl {
     #[serde(default = "karman")]
     #[schemars(extend("x-unit" = "1", "minimum" = 0.2, "maximum" = 0.6))]
     pub kappa: f64,
-}
-
-fn karman() -> f64 {
-    0.41
 }
 
 impl Prandtl {

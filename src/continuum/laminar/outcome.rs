@@ -146,15 +146,15 @@ fn balances(bed: &Bed, solution: &Solution) -> Vec<Balance> {
 /// Values of elements `from..to` at the nodes of that range, by linear interpolation between middles and extrapolation to the
 /// ends; into `nodes`.
 pub(super) fn spread(mesh: &Mesh, values: &dyn Fn(usize) -> f64, from: usize, to: usize, nodes: &mut [Option<f64>]) {
-    for j in from..=to {
+    for (j, node) in nodes.iter_mut().enumerate().take(to + 1).skip(from) {
         if to - from < 2 {
-            nodes[j] = (to > from).then(|| values(from)).or(nodes[j]);
+            *node = (to > from).then(|| values(from)).or(*node);
             continue;
         }
         let a = j.saturating_sub(1).clamp(from, to - 2);
         let (za, zb) = (mesh.middle(a), mesh.middle(a + 1));
         let share = (mesh.nodes()[j] - za) / (zb - za);
-        nodes[j] = Some(values(a) + share * (values(a + 1) - values(a)));
+        *node = Some(values(a) + share * (values(a + 1) - values(a)));
     }
 }
 
