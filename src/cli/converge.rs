@@ -53,7 +53,9 @@ impl Converge {
             return Err(CliError::Usage { message, hint: "meshes are doubled".into() });
         }
         let mut options = vec![format!("--over {}", over.name())];
-        options.extend(self.reference.and_then(|r| r.to_possible_value()).map(|v| format!("--reference {}", v.get_name())));
+        options.extend(
+            self.reference.and_then(|r| r.to_possible_value()).map(|v| format!("--reference {}", v.get_name())),
+        );
         options.extend(self.half_decades.then(|| "--half-decades".to_owned()));
         let request = Request {
             case: self.case.case.clone(),

@@ -120,7 +120,13 @@ fn closing(plan: &Plan, found: &Conducted, command: &str) -> String {
         line(label, text.clone());
     }
     if let Some(first) = failed.first() {
-        let text = format!("{} of {}, first {}: {}", failed.len(), found.rows.len(), first.point.name(&plan.varied), first.reason());
+        let text = format!(
+            "{} of {}, first {}: {}",
+            failed.len(),
+            found.rows.len(),
+            first.point.name(&plan.varied),
+            first.reason()
+        );
         line("failed", text);
     }
     let cost = &found.cost;

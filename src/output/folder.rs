@@ -11,6 +11,8 @@ use crate::result::{Status, Summary};
 pub(super) const OURS: &[&str] = &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES];
 /// The one folder in it, of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
+/// Written and removed to see whether files can be made.
+const PROBE: &str = ".probe";
 
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]
@@ -219,7 +221,7 @@ impl Folder {
             }
         };
         // Whether files can be made here is known before anything is computed.
-        let probe = folder.place.join(".probe");
+        let probe = folder.place.join(PROBE);
         fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe)).map_err(unwritable(&folder.place))?;
         Ok(folder)
     }
@@ -358,10 +360,12 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputEr
 /// Whether every entry of a folder is one of `ours`, a figure, or a file that was being written.
 pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError> {
     let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
-    let partial = |name: &str| name.starts_with('.') && name.contains(".part-");
+    let partial = |name: &str| name == PROBE || name.starts_with('.') && name.contains(".part-");
     let foreign = |entry: String| Err(OutputError::Foreign { folder: folder.into(), entry });
     for (name, is_folder) in entries(folder).map_err(unwritable)? {
-        if is_folder != [FIGURES, study::POINTS].contains(&name.as_str()) || !(ours.contains(&name.as_str()) || partial(&name)) {
+        if is_folder != [FIGURES, study::POINTS].contains(&name.as_str())
+            || !(ours.contains(&name.as_str()) || partial(&name))
+        {
             return foreign(name);
         }
     }

@@ -7,9 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 use serde_json::Value;
 
+use super::comparison;
 use super::folder::{self, FIGURES, Folder, Mode, OutputError, entries, holds_only, read_summary};
 use super::run::draw_png;
-use super::comparison;
 use crate::plot::Figure;
 use crate::result::Status;
 
@@ -51,6 +51,7 @@ impl StudyFolder {
     pub fn prepare(target: &Path, plan: &str, mode: Mode) -> Result<Self, OutputError> {
         if mode.resume && !mode.force && read(target).is_some_and(|record| record.plan_sha256 == plan) {
             holds_study_only(target)?;
+            clear(&target.join(POINTS));
             return Ok(Self(Folder::go_on(target)));
         }
         Folder::claim(target, |folder| may_replace(folder, plan, mode)).map(Self)
@@ -108,18 +109,25 @@ impl StudyFolder {
 fn may_replace(folder: &Path, plan: &str, mode: Mode) -> Result<Status, OutputError> {
     let Some(record) = read(folder) else {
         // A run or a comparison is ours as well, but no study takes its place.
-        let holds =
-            if comparison::stands_in(folder) { "comparison" } else { read_summary(folder).map(|_| "run")? };
+        let holds = if comparison::stands_in(folder) { "comparison" } else { read_summary(folder).map(|_| "run")? };
         return Err(OutputError::OtherKind { folder: folder.into(), holds, wanted: "study" });
     };
     holds_study_only(folder)?;
     match record.status {
         status if mode.force => Ok(status),
-        _ if record.plan_sha256 != plan => {
-            Err(OutputError::OtherStudy { folder: folder.into(), of: record.command })
-        }
+        _ if record.plan_sha256 != plan => Err(OutputError::OtherStudy { folder: folder.into(), of: record.command }),
         Status::Done => Ok(Status::Done),
         status => Err(OutputError::UnfinishedStudy { folder: folder.into(), status }),
+    }
+}
+
+/// Removes what a killed study left of points that had no summary yet. What cannot be removed is refused as a run folder.
+fn clear(points: &Path) {
+    for (name, _) in entries(points).unwrap_or_default() {
+        let place = points.join(&name);
+        if name.starts_with('.') || read_summary(&place).is_err() {
+            let _ = fs::remove_dir_all(place);
+        }
     }
 }
 

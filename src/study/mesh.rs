@@ -140,7 +140,8 @@ pub(super) fn judge(focus: &Focus, closed: Option<&ClosedForm>, rows: &[Row]) ->
         let order = |name: &str| overall(&x, &errors(name)).map(|slope| -slope);
         facts.insert(series.into(), json!({ "order_velocity": order(L2), "order_number": order(&wanted[1].0) }));
         if let (Some(paper), Some(own), Some(_)) = (order(RMS_PAPER), order(RMS), order(L2)) {
-            let text = format!("order {paper:.2} where the root mean square has {own:.2}: it divides by N outside the root");
+            let text =
+                format!("order {paper:.2} where the root mean square has {own:.2}: it divides by N outside the root");
             judgement.findings.push(("  RMS of the paper".into(), text));
         }
         for (column, name) in [(&mut by_velocity, L2), (&mut by_number, wanted[1].0.as_str())] {
@@ -152,7 +153,8 @@ pub(super) fn judge(focus: &Focus, closed: Option<&ClosedForm>, rows: &[Row]) ->
     let regularised = rows.iter().any(|row| row.point.overrides.iter().any(|o| o.ends_with(SMALL)));
     let rest = if regularised { format!(", λ = {SMALL} where there is no node on its level") } else { String::new() };
     judgement.findings.push(("yield".into(), format!("exact{rest}")));
-    let moves = "without a node there, the error goes with the square of the distance from the yield level to the nearest node";
+    let moves =
+        "without a node there, the error goes with the square of the distance from the yield level to the nearest node";
     judgement.findings.push(("orders".into(), moves.into()));
     judgement.facts.insert("orders_from_coarsest_to_finest".into(), facts.into());
     measures.push(("order_velocity_l2".into(), by_velocity));

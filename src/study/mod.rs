@@ -169,7 +169,9 @@ fn over_hint(argument: &str) -> String {
     let tables = ["fluid", "grains", "bed", "flow", "model", "closures", "regularisation", "grid", "solver"];
     let near = nearest(first, tables).filter(|near| near != first);
     let near = near.map(|near| format!("did you mean [{near}]? ")).unwrap_or_default();
-    format!("{near}give table.key=a,b,c or table.key=from:to:count or table.key=from:to:count:log, with a unit at the end")
+    format!(
+        "{near}give table.key=a,b,c or table.key=from:to:count or table.key=from:to:count:log, with a unit at the end"
+    )
 }
 
 impl Plan {

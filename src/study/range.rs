@@ -49,10 +49,13 @@ pub fn parse(argument: &str) -> Result<Varied, StudyError> {
 
 /// `from:to:count` with an optional `log`, and a unit after any of them.
 fn range(parts: &[&str]) -> Result<(Vec<String>, bool), String> {
-    let (&[from, to, count], mode) = (match parts {
-        [from, to, count] | [from, to, count, _] => &[*from, *to, *count],
-        _ => return Err("a range is from:to:count or from:to:count:log".into()),
-    }, parts.get(3));
+    let (&[from, to, count], mode) = (
+        match parts {
+            [from, to, count] | [from, to, count, _] => &[*from, *to, *count],
+            _ => return Err("a range is from:to:count or from:to:count:log".into()),
+        },
+        parts.get(3),
+    );
     let number = |text: &'static str, part| number_and_unit(part).ok_or(format!("{text} = \"{part}\" is not a number"));
     let ((a, unit_a), (b, unit_b), (n, unit_n)) = (number("from", from)?, number("to", to)?, number("count", count)?);
     let unit_mode = match mode.map(|mode| mode.strip_prefix("log").map(str::trim)) {

@@ -125,7 +125,8 @@ pub(super) fn judge(focus: &Focus, reference: Reference, rows: &[Row]) -> Judgem
     let mut laws = Map::new();
     for (law, fit) in series.iter().zip(&fits) {
         let found = slopes(&law.lambda, &law.errors(L2));
-        let low: Vec<f64> = law.lambda.iter().zip(&found).filter(|(l, _)| **l < 0.9e-4).filter_map(|(_, s)| *s).collect();
+        let low: Vec<f64> =
+            law.lambda.iter().zip(&found).filter(|(l, _)| **l < 0.9e-4).filter_map(|(_, s)| *s).collect();
         judgement.findings.push((law.name.into(), law_text(law, range_text(low.iter().copied()), *fit)));
         laws.insert(law.name.into(), law_facts(&low, *fit));
         for (&i, s) in law.rows.iter().zip(found) {
@@ -133,7 +134,8 @@ pub(super) fn judge(focus: &Focus, reference: Reference, rows: &[Row]) -> Judgem
         }
     }
     if let Some(s) = s {
-        let text = format!("s = {} is the largest shear rate of the reference; fitted for λ < s/100", significant(s, 3));
+        let text =
+            format!("s = {} is the largest shear rate of the reference; fitted for λ < s/100", significant(s, 3));
         judgement.findings.push(("fits".into(), text));
         judgement.facts.insert("shear_rate_scaled".into(), json!(s));
     }
@@ -149,16 +151,18 @@ pub(super) fn judge(focus: &Focus, reference: Reference, rows: &[Row]) -> Judgem
     judgement
 }
 
-fn series<'a>((name, law): (&'static str, Law), rows: &[Row], measures: &'a [(String, Vec<Option<f64>>)]) -> Series<'a> {
+fn series<'a>(
+    (name, law): (&'static str, Law),
+    rows: &[Row],
+    measures: &'a [(String, Vec<Option<f64>>)],
+) -> Series<'a> {
     let of = rows.iter().enumerate().filter(|(_, row)| row.point.series == name);
     let (rows, lambda) = of.filter_map(|(i, row)| Some((i, lambda(row)?))).unzip();
     Series { name, law, rows, lambda, measures }
 }
 
 fn law_text(series: &Series<'_>, slope: Option<String>, fit: Option<Fit>) -> String {
-    let at = |lambda: f64| {
-        series.at(L2, lambda).map(|e| format!("{} at λ = {}", error_text(e), significant(lambda, 1)))
-    };
+    let at = |lambda: f64| series.at(L2, lambda).map(|e| format!("{} at λ = {lambda:e}", error_text(e)));
     let mut parts: Vec<String> = [1e-4, 1e-6, 1e-10].into_iter().filter_map(at).collect();
     parts.extend(slope.map(|slope| format!("slope {slope} from 1e-4 down")));
     let fitted = |f: Fit| {
@@ -171,7 +175,9 @@ fn law_text(series: &Series<'_>, slope: Option<String>, fit: Option<Fit>) -> Str
 fn law_facts(slopes: &[f64], fit: Option<Fit>) -> Value {
     let least = slopes.iter().copied().reduce(f64::min);
     let most = slopes.iter().copied().reduce(f64::max);
-    let fit = fit.map(|f| json!({ "law": f.law.formula(), "constant": f.constant, "within_factor": f.within, "points": f.points }));
+    let fit = fit.map(
+        |f| json!({ "law": f.law.formula(), "constant": f.constant, "within_factor": f.within, "points": f.points }),
+    );
     json!({ "slope_least": least, "slope_most": most, "fit": fit })
 }
 
@@ -230,9 +236,10 @@ fn figure(focus: &Focus, series: &[Series<'_>], fits: &[Option<Fit>], s: Option<
     Figure {
         stem: "convergence".into(),
         caption: format!(
-            "Relative error over the size λ of the regularisation, in units of {} 1/s: (a) L² norm of the {} for three laws; \
+            "Relative error over the size λ of the regularisation, in units of {} 1/s{}: (a) L² norm of the {} for three laws; \
              (b) what the first of them does to other measures. The RMS of the paper is (1/N) sqrt(Σe²), in units of {} m/s.",
             significant(focus.shear_unit, 4),
+            if focus.bed { " (Δρ = ρ_p - ρ_f)" } else { "" },
             focus.velocity.title,
             significant(focus.velocity_unit, 4)
         ),

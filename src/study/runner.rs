@@ -1,6 +1,6 @@
 //! Runs the points of a plan in parallel and writes the folder of the study.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -91,9 +91,10 @@ pub fn conduct(
     let out = settings.out.clone().unwrap_or_else(|| plan.folder(&name));
     let identity = identity(plan, &loaded);
     let folder = StudyFolder::prepare(&out, &identity, settings.mode)?;
-    let threads = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build().map_err(|error| {
-        StudyError::Threads { wanted: settings.threads, reason: error.to_string() }
-    })?;
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(settings.threads)
+        .build()
+        .map_err(|error| StudyError::Threads { wanted: settings.threads, reason: error.to_string() })?;
     let mut provenance = Provenance { source: plan.case.clone(), ..Provenance::of_this_program() };
     (provenance.overrides, provenance.threads) = (plan.overrides.clone(), threads.current_num_threads());
     let head = record::Head { plan, name: &name, identity: &identity, command: &settings.command };
@@ -146,27 +147,25 @@ fn run(
     folder: &StudyFolder,
     settings: &Settings<'_>,
 ) -> Result<(Vec<Row>, usize), OutputError> {
-    let mut jobs: BTreeMap<&str, &(Case, Problem, String)> = BTreeMap::new();
-    for one in &loaded {
-        if let (Some(sha256), Ok(case)) = (&one.sha256, &one.case) {
-            jobs.insert(sha256, case);
-        }
-    }
+    let mut seen = BTreeSet::new();
+    let jobs: Vec<_> =
+        loaded.iter().filter(|one| one.sha256.as_ref().is_some_and(|sha256| seen.insert(sha256))).collect();
     let (ended, resumed) = (AtomicUsize::new(0), AtomicUsize::new(0));
     let all = jobs.len();
-    let jobs: Vec<_> = jobs.into_iter().collect();
-    let solved = jobs.par_iter().map(|(sha256, case)| {
-        let place = folder.point(sha256);
-        let row = match finished(&place, settings.mode) {
-            Some(row) => {
-                resumed.fetch_add(1, Ordering::Relaxed);
-                row
-            }
-            None => solve(case, &place, settings.observer)?,
-        };
-        settings.observer.done(ended.fetch_add(1, Ordering::Relaxed) + 1, all);
-        Ok(((*sha256).to_owned(), row))
-    });
+    let solved = jobs.par_iter().filter_map(|one| Some((one.sha256.as_ref()?, one.case.as_ref().ok()?))).map(
+        |(sha256, case)| {
+            let place = folder.point(sha256);
+            let row = match finished(&place, settings.mode) {
+                Some(row) => {
+                    resumed.fetch_add(1, Ordering::Relaxed);
+                    row
+                }
+                None => solve(case, &place, settings.observer)?,
+            };
+            settings.observer.done(ended.fetch_add(1, Ordering::Relaxed) + 1, all);
+            Ok((sha256.clone(), row))
+        },
+    );
     let solved: BTreeMap<String, Row> = solved.collect::<Result<_, OutputError>>()?;
     let rows = plan.points.iter().zip(&loaded).map(|(point, one)| {
         let row = match (&one.sha256, &one.case) {

@@ -76,9 +76,17 @@ fn judge(varied: &[Varied], axis: Option<usize>, rows: &[Row]) -> Judgement {
         let Some((value, row)) = end else { continue };
         let at: Vec<String> = keys.iter().zip(&row.point.values).map(|(key, v)| format!("{key} = {v}")).collect();
         let shields = row.result(quantity::SHIELDS.name).map(|x| format!(" (θ = {})", significant(x, 3)));
-        let text = format!("{} {} at {}{}", shown.title, readable(*value, shown.unit), at.join(", "), shields.unwrap_or_default());
+        let text = format!(
+            "{} {} at {}{}",
+            shown.title,
+            readable(*value, shown.unit),
+            at.join(", "),
+            shields.unwrap_or_default()
+        );
         judgement.findings.push((label.into(), text));
-        judgement.facts.insert(label.into(), json!({ "quantity": shown.name, "value": value, "values": row.point.values }));
+        judgement
+            .facts
+            .insert(label.into(), json!({ "quantity": shown.name, "value": value, "values": row.point.values }));
     }
     judgement.figures.extend(figure(varied, axis, rows, shown));
     judgement
@@ -124,7 +132,11 @@ fn figure(varied: &[Varied], axis: Option<usize>, rows: &[Row], shown: &'static 
         let x = scaled(quantity::SHIELDS.title, "1", &shields, false);
         panels.push(Panel { x, curves: curves(&theta, false) });
     }
-    let against = if panels.len() > 1 { format!("(a) {}, (b) the {}", key.key, quantity::SHIELDS.title) } else { key.key.clone() };
+    let against = if panels.len() > 1 {
+        format!("(a) {}, (b) the {}", key.key, quantity::SHIELDS.title)
+    } else {
+        key.key.clone()
+    };
     Some(Figure {
         stem: "sweep".into(),
         caption: format!("{} over {against}.", capitalised(shown.title)),
