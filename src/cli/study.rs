@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 
 use clap::Args;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::progress::Progress;
 use super::{CaseArgs, CliError, answer, say, word};
@@ -80,7 +80,13 @@ impl StudyArgs {
             object.insert("out".into(), found.out.display().to_string().into());
         }
         match found.status {
-            Status::Failed => Err(CliError::Failed(every_point(&found), Some(value))),
+            Status::Failed => {
+                let error = every_point(&found);
+                if let Value::Object(object) = &mut value {
+                    object.insert("error".into(), json!(error));
+                }
+                Err(CliError::Failed(error, Some(value)))
+            }
             Status::Stopped => Err(CliError::Stopped(value, found.kept)),
             _ if self.json => Ok(answer(&value)?),
             _ if self.quiet => Ok(()),

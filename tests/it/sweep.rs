@@ -103,7 +103,7 @@ fn only_where_nothing_is_left_is_it_an_error() {
     assert_eq!(points(&found)[1]["error"]["code"], "out-of-range");
     assert_eq!((&points(&found)[1]["folder"], scratch.names("a/points").len()), (&Value::Null, 1));
     let failed = sweep(&scratch, 3, &["flow.pressure_gradient=200,300 Pa/m"], &["--out", "b"]);
-    assert_eq!(failed["status"], "failed");
+    assert_eq!((&failed["status"], &failed["error"]["code"]), (&"failed".into(), &"whole-bed-moves".into()));
     assert_eq!(points(&failed).len(), 2);
     let wrong = sweep(&scratch, 2, &["bed.phi=0.9,0.95"], &["--out", "c"]);
     assert_eq!(wrong["error"]["path"], "bed.phi");
