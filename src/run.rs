@@ -1,6 +1,6 @@
 //! From a problem to an outcome: the one entry point that the command line and every study call.
 
-use crate::closures::{Info, drag::carman_kozeny, friction, mixing_length, wall};
+use crate::closures::{Info, dilatancy::phi_iv, drag::carman_kozeny, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::laminar;
 use crate::problem::{Model, Problem, RegularisedBed};
@@ -47,6 +47,7 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             let friction = if bed.rise.is_some() { &friction::mu_iv::INFO } else { &friction::coulomb::INFO };
             let mut laws = vec![friction, bed.viscosity.info()];
             laws.extend(bed.drag.map(|_| &carman_kozeny::INFO));
+            laws.extend(bed.dilatancy.map(|_| &phi_iv::INFO));
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),

@@ -4,6 +4,7 @@
 //! an `enum` tagged by `law = "..."`; each file holds the equation, its symbols with units, the source, the range of
 //! validity, the implementation, and tests of its limits. `docs/adding-a-closure.md` walks through one.
 
+pub mod dilatancy;
 pub mod drag;
 pub mod friction;
 pub mod mixing_length;
@@ -77,6 +78,8 @@ pub static CATALOGUE: &[&Info] = &[
     &mixture_viscosity::clear::INFO,
     &mixture_viscosity::einstein::INFO,
     &mixture_viscosity::boyer::INFO,
+    &dilatancy::none::INFO,
+    &dilatancy::phi_iv::INFO,
     &drag::none::INFO,
     &drag::carman_kozeny::INFO,
     &mixing_length::none::INFO,

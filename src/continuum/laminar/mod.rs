@@ -7,8 +7,12 @@ pub mod bed;
 pub mod element;
 pub mod mesh;
 mod outcome;
+pub mod packing;
 mod plane;
 pub mod single;
+mod slipping;
+#[cfg(test)]
+mod tests;
 pub mod two_fluid;
 
 pub use outcome::{equations, run};

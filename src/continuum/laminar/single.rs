@@ -41,7 +41,8 @@ pub struct NotConverged {
 
 const MOST: usize = 100;
 
-/// Solves for the velocity under the drive `f`, no slip at both walls.
+/// Solves for the velocity under the drive `f`, no slip at both walls, from the stress `start` between 0 and `f` at the lower
+/// wall.
 ///
 /// # Errors
 /// [`NotConverged`] if round-off is not reached, which the bracket excludes for finite input.
@@ -50,11 +51,12 @@ pub fn solve(
     elements: &[Element],
     f: f64,
     regularisation: &Regularisation,
+    start: f64,
 ) -> Result<Solved, NotConverged> {
     let n = elements.len();
     let mut gamma = vec![0.0; n];
     let (mut low, mut high) = (0.0, f);
-    let mut t_0 = 0.5 * f;
+    let mut t_0 = start;
     let mut history = Vec::new();
     for _ in 0..MOST {
         let (mut sum, mut size, mut slope) = (0.0, 0.0, 0.0);
