@@ -153,9 +153,11 @@ pub(super) fn judge(focus: &Focus, closed: Option<&ClosedForm>, rows: &[Row]) ->
     let regularised = rows.iter().any(|row| row.point.overrides.iter().any(|o| o.ends_with(SMALL)));
     let rest = if regularised { format!(", λ = {SMALL} where there is no node on its level") } else { String::new() };
     judgement.findings.push(("yield".into(), format!("exact{rest}")));
-    let moves =
-        "without a node there, the error goes with the square of the distance from the yield level to the nearest node";
-    judgement.findings.push(("orders".into(), moves.into()));
+    // With Coulomb friction the corner is all there is of an error.
+    if closed.is_some() {
+        let moves = "without a node there, the error goes with the square of the distance from the yield level to the nearest node";
+        judgement.findings.push(("orders".into(), moves.into()));
+    }
     judgement.facts.insert("orders_from_coarsest_to_finest".into(), facts.into());
     measures.push(("order_velocity_l2".into(), by_velocity));
     measures.push((format!("order_{}", focus.number.1), by_number));
