@@ -5,7 +5,6 @@ use crate::case::Fault;
 use crate::case::scene::{Laminar, Ouriemi};
 use crate::case::tables::{Bed, BedClosures, Fluid, Form, Grains, LaminarFlow, RegularisationTable};
 use crate::closures::dilatancy::{self, Dilatancy, PhiIv};
-use crate::closures::drag::carman_kozeny::Dilute;
 use crate::closures::drag::{self, CarmanKozeny, Drag};
 use crate::closures::friction::{self, Coulomb, Friction, MuIv};
 use crate::closures::mixture_viscosity::MixtureViscosity;
@@ -202,8 +201,8 @@ fn laminar_bed(
             None
         }
     };
-    if dilatancy.is_some() && drag.is_some_and(|law: CarmanKozeny| law.dilute == Dilute::None) {
-        let model = format!("{model} with closures.dilatancy, unless closures.drag.dilute = \"stokes\"");
+    if dilatancy.is_some() && drag.is_some_and(|law: CarmanKozeny| law.phi_min == 0.0) {
+        let model = format!("{model} with closures.dilatancy, unless closures.drag.phi_min is more than 0");
         let law = drag::carman_kozeny::INFO.law;
         faults.push(("closures.drag.law", mismatch("drag", law, model, vec![law])));
     }

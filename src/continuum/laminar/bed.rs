@@ -3,7 +3,7 @@
 use super::element::{Element, Rise};
 use super::mesh::{Layer, Mesh};
 use super::packing::Packing;
-use super::single;
+use super::{single, spreading};
 use crate::closures::dilatancy::PhiIv;
 use crate::closures::drag::CarmanKozeny;
 use crate::closures::friction::MuIv;
@@ -167,35 +167,35 @@ impl Bed {
         gamma: &mut Vec<f64>,
         regularisation: Option<&Regularisation>,
     ) -> Result<(Mesh, Packing, single::Solved), SolveError> {
-        let (mut missed, mut start) = (f64::INFINITY, 0.5 * self.f);
+        let law = regularisation.unwrap_or(&Regularisation::EXACT);
+        let mut moved = f64::INFINITY;
         for _ in 0..MOST {
             let mesh = self.mesh(nodes, *h_c);
-            let packing = Packing::of(self, &mesh, gamma);
-            let elements = self.elements(&mesh, &packing);
-            let law = regularisation.unwrap_or(&Regularisation::EXACT);
-            let solved = single::solve(&mesh, &elements, self.f, law, start).map_err(not_converged)?;
-            start = solved.t_0;
-            missed =
-                if self.dilation.is_some() { Packing::of(self, &mesh, &solved.gamma).change(&packing) } else { 0.0 };
-            if regularisation.is_none() {
-                // Where the stress t_0 - f z crosses the yield stress; the bed below is packed as at rest. With a node
-                // there the stress is exact, so the level converges as fast as its own error squared.
-                let level = (self.mu_s * packing.pressure[0] - solved.t_0) / (self.mu_s * self.phi - self.f);
-                if level <= 0.0 {
-                    return Err(self.whole_bed(level));
-                }
-                let level = level.min(self.h_p);
-                if nodes.on_yield {
-                    missed = missed.max((level - *h_c).abs());
-                }
-                *h_c = level;
+            let (packing, solved) = if self.dilation.is_some() {
+                spreading::solve(self, &mesh, law)
+            } else {
+                let packing = Packing::of(self, &mesh, &[]);
+                single::solve(&mesh, &self.elements(&mesh, &packing), self.f, law).map(|solved| (packing, solved))
             }
-            if missed <= SETTLED {
+            .map_err(not_converged)?;
+            gamma.clone_from(&solved.gamma);
+            if regularisation.is_some() {
                 return Ok((mesh, packing, solved));
             }
-            *gamma = solved.gamma;
+            // Where the stress t_0 - f z crosses the yield stress; the bed below is packed as at rest. With a node there the
+            // stress is exact, so the level converges as fast as its own error squared.
+            let level = (self.mu_s * packing.pressure[0] - solved.t_0) / (self.mu_s * self.phi - self.f);
+            if level <= 0.0 {
+                return Err(self.whole_bed(level));
+            }
+            let level = level.min(self.h_p);
+            moved = (level - *h_c).abs();
+            *h_c = level;
+            if !nodes.on_yield || moved <= SETTLED {
+                return Ok((mesh, packing, solved));
+            }
         }
-        Err(SolveError::NotConverged { residual: missed, iterations: MOST })
+        Err(SolveError::NotConverged { residual: moved, iterations: MOST })
     }
 
     pub(super) fn whole_bed(&self, level: f64) -> SolveError {

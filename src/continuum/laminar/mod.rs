@@ -11,6 +11,7 @@ pub mod packing;
 mod plane;
 pub mod single;
 mod slipping;
+mod spreading;
 #[cfg(test)]
 mod tests;
 pub mod two_fluid;

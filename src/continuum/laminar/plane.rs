@@ -80,7 +80,7 @@ pub fn solve(
         equal(1.0, if sheared > 0 { sheared } else { cells }),
     ]);
     let elements = vec![Element { e: 1.0, y, rise: None }; mesh.elements()];
-    let solved = single::solve(&mesh, &elements, f, regularisation, 0.5 * f)
+    let solved = single::solve(&mesh, &elements, f, regularisation)
         .map_err(|e| SolveError::NotConverged { residual: e.residual, iterations: e.iterations })?;
     Ok(Solution { mesh, f, edge, solved })
 }

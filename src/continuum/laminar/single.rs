@@ -41,8 +41,7 @@ pub struct NotConverged {
 
 const MOST: usize = 100;
 
-/// Solves for the velocity under the drive `f`, no slip at both walls, from the stress `start` between 0 and `f` at the lower
-/// wall.
+/// Solves for the velocity under the drive `f`, no slip at both walls.
 ///
 /// # Errors
 /// [`NotConverged`] if round-off is not reached, which the bracket excludes for finite input.
@@ -51,12 +50,11 @@ pub fn solve(
     elements: &[Element],
     f: f64,
     regularisation: &Regularisation,
-    start: f64,
 ) -> Result<Solved, NotConverged> {
     let n = elements.len();
     let mut gamma = vec![0.0; n];
     let (mut low, mut high) = (0.0, f);
-    let mut t_0 = start;
+    let mut t_0 = 0.5 * f;
     let mut history = Vec::new();
     for _ in 0..MOST {
         let (mut sum, mut size, mut slope) = (0.0, 0.0, 0.0);
@@ -94,7 +92,7 @@ pub fn solve(
 }
 
 /// Velocities from both walls to the largest one, so that round-off does not pile up at the upper wall.
-fn finish(mesh: &Mesh, t_0: f64, gamma: Vec<f64>, history: Vec<f64>) -> Solved {
+pub(super) fn finish(mesh: &Mesh, t_0: f64, gamma: Vec<f64>, history: Vec<f64>) -> Solved {
     let n = gamma.len();
     let turn = gamma.iter().position(|g| *g < 0.0).unwrap_or(n);
     let mut u = vec![0.0; n + 1];

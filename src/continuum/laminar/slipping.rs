@@ -54,6 +54,13 @@ impl Bed {
             let one;
             (mesh, _, one) = self.sheared(on_yield, &mut h_c, &mut gamma, None)?;
             solved = self.slip_free(&mesh, &one, &gamma);
+            // Where it is not close enough, a smooth friction leads on to a sharp one.
+            if self.creeping(&mesh, h_c, &solved, &mut gamma.clone(), &ALMOST_EXACT, 1e-2).is_err() {
+                for power in [-2, -4, -6, -8, -10] {
+                    let smooth = Regularisation { lambda: 10_f64.powi(power), ..ALMOST_EXACT };
+                    (_, solved) = self.creeping(&mesh, h_c, &solved, &mut gamma, &smooth, 1e-2)?;
+                }
+            }
             for _ in 0..PASSES {
                 (_, solved) = self.creeping(&mesh, h_c, &solved, &mut gamma, &ALMOST_EXACT, 1e-5)?;
                 h_c = onset(&mesh, &gamma);
