@@ -87,7 +87,7 @@ pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
                 }
             };
             let reference = if closed.is_some() { Reference::Exact } else { Reference::Finest };
-            let points = mesh::points(&problem, reference);
+            let points = mesh::points(reference);
             let judge = move |rows: &[Row]| mesh::judge(&focus, closed.as_ref(), rows);
             Ok((plan(reference.name(), mesh::KEY, points), Box::new(judge)))
         }

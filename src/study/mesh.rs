@@ -7,7 +7,7 @@ use serde_json::{Map, json};
 use super::converge::{Reference, curve, error_text, line, range_text};
 use super::errors::{Focus, L2, RMS, RMS_PAPER, Truth, column};
 use super::orders::{ROUND_OFF, overall, slopes};
-use super::regularisation::{exact_yield, smoothed};
+use super::regularisation::exact_yield;
 use super::{Judgement, Point, Row};
 use crate::continuum::exact::{bingham, ouriemi};
 use crate::plot::{Axis, Dash, Figure, Panel};
@@ -22,8 +22,6 @@ const COARSEST: usize = 24;
 const MESHES: u32 = 7;
 const SERIES: [&str; 2] = ["node on the yield level", "no node there"];
 const REFERENCE: &str = "reference";
-/// The two-fluid form finds its exact yield on a mesh with a node there only; without one it is regularised by this.
-const SMALL: &str = "1e-12";
 
 /// The solution of the exact yield, to round-off.
 #[derive(Clone, Debug)]
@@ -78,16 +76,14 @@ fn exact_plane(plane: &BinghamPlane) -> Option<Velocity> {
     bingham::Solution::new(plane, |_| {}).ok().map(Velocity::Plane)
 }
 
-/// Whether the exact yield is solved on a mesh without a node on the yield level.
-fn needs_node(problem: &Problem) -> bool {
-    matches!(&problem.model, Model::Laminar(RegularisedBed { bed, .. }) if bed.drag.is_some())
-}
-
-pub(super) fn points(problem: &Problem, reference: Reference) -> Vec<Point> {
+pub(super) fn points(reference: Reference) -> Vec<Point> {
     let point = |series: &str, cells: usize, node: bool| {
-        let smoothing = if !node && needs_node(problem) { smoothed("simple", SMALL) } else { exact_yield() };
         let grid = [format!("{KEY}={cells}"), format!("grid.yield_node={node}")];
-        Point { series: series.into(), values: vec![cells.to_string()], overrides: [&grid[..], &smoothing].concat() }
+        Point {
+            series: series.into(),
+            values: vec![cells.to_string()],
+            overrides: [&grid[..], &exact_yield()].concat(),
+        }
     };
     let mut points = Vec::new();
     if reference == Reference::Finest {
@@ -150,9 +146,7 @@ pub(super) fn judge(focus: &Focus, closed: Option<&ClosedForm>, rows: &[Row]) ->
             }
         }
     }
-    let regularised = rows.iter().any(|row| row.point.overrides.iter().any(|o| o.ends_with(SMALL)));
-    let rest = if regularised { format!(", λ = {SMALL} where there is no node on its level") } else { String::new() };
-    judgement.findings.push(("yield".into(), format!("exact{rest}")));
+    judgement.findings.push(("yield".into(), "exact".into()));
     // With Coulomb friction the corner is all there is of an error.
     if closed.is_some() {
         let moves = "without a node there, the error goes with the square of the distance from the yield level to the nearest node";
@@ -202,7 +196,7 @@ fn figure(focus: &Focus, rows: &[Row], measures: &[(String, Vec<Option<f64>>)]) 
             "Relative error over the number of cells: (a) L² norm of the {}, (b) {}. Errors below {ROUND_OFF:.0e} are round-off.",
             focus.velocity.title, focus.number.0.title
         ),
-        y: Axis::log("relative error", "1"),
+        y: Axis::log("relative error of (a) velocity, (b) transport rate", "1"),
         panels: vec![panel(L2, true), panel(&focus.number_error(), false)],
         levels: Vec::new(),
         tint_below: None,

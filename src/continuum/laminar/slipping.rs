@@ -44,7 +44,11 @@ impl Bed {
         let mut h_c = if moves && self.rise.is_none() { coulomb()? } else { self.h_p };
         let mut mesh = self.mesh(on_yield, h_c);
         let mut solved = rigid(&mesh, h_c);
-        if regularisation.is_exact() && (self.rise.is_none() || !moves) {
+        if !nodes.on_yield && !moves {
+            mesh = self.mesh(nodes, h_c);
+            solved = rigid(&mesh, h_c);
+        }
+        if regularisation.is_exact() && (!moves || nodes.on_yield && self.rise.is_none()) {
             let packing = Packing::of(self, &mesh, &[]);
             return Ok(self.collect(mesh, packing, h_c, two_fluid::Solved { history, ..solved }));
         }
