@@ -54,8 +54,8 @@ pub enum Fault {
     Syntax {
         /// what the parser says
         message: String,
-        /// the line with its quantity in quotes, if that is what is missing
-        quoted: Option<String>,
+        /// what the line probably means, and how that is written
+        meant: Option<String>,
     },
     /// A table or key that no model has.
     #[error("unknown {what} \"{name}\"{place}")]
@@ -336,7 +336,7 @@ impl Fault {
             }
             Self::NotUsed { users, .. } => Some(format!("remove it; used by {}", users.join(", "))),
             Self::Missing { description, .. } if !description.is_empty() => Some(description.clone()),
-            Self::Syntax { quoted: Some(line), .. } => Some(format!("a quantity with a unit is a text: {line}")),
+            Self::Syntax { meant: Some(line), .. } => Some(line.clone()),
             Self::Unit { error: UnitError::UnknownUnit { nearest: Some(n), .. }, .. } => {
                 Some(format!("did you mean \"{n}\"?"))
             }
