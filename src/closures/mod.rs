@@ -4,12 +4,16 @@
 //! an `enum` tagged by `law = "..."`; each file holds the equation, its symbols with units, the source, the range of
 //! validity, the implementation, and tests of its limits. `docs/adding-a-closure.md` walks through one.
 
+pub mod dilatancy;
 pub mod drag;
 pub mod friction;
+pub mod lid;
 pub mod mixing_length;
 pub mod mixture_viscosity;
+pub mod rearrangement;
 pub mod regularisation;
 pub mod side_wall;
+pub mod suspension;
 pub mod wall;
 
 /// How far a closure has been tested here.
@@ -74,14 +78,24 @@ pub static CATALOGUE: &[&Info] = &[
     &friction::coulomb::INFO,
     &friction::mu_i::INFO,
     &friction::mu_iv::INFO,
+    &dilatancy::phi_i::INFO,
+    &rearrangement::THREE,
+    &rearrangement::FREE_FALL,
     &mixture_viscosity::clear::INFO,
     &mixture_viscosity::einstein::INFO,
     &mixture_viscosity::boyer::INFO,
     &drag::none::INFO,
     &drag::carman_kozeny::INFO,
+    &drag::dallavalle::INFO,
     &mixing_length::none::INFO,
     &mixing_length::prandtl::INFO,
     &mixing_length::li_sawamoto::INFO,
+    &suspension::NONE,
+    &suspension::rouse::INFO,
+    &lid::FREE_SURFACE,
+    &lid::STRESS,
+    &lid::SOLVED,
+    &lid::colebrook_white::INFO,
     &wall::rough::INFO,
     &side_wall::none::INFO,
     &side_wall::graf_altinakar_published::INFO,
