@@ -14,4 +14,5 @@ mod never_panics;
 mod paths;
 mod report;
 mod schema;
+mod sheet;
 mod support;

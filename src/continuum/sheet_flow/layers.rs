@@ -119,7 +119,7 @@ impl Layers {
         let half = 0.5 * (bottom + self.z[0]);
         let viscous = |c: usize| self.cells[c].tau_f / (self.cells[c].tau_p + state.s(c));
         let viscous_share = (0..n).filter(|&c| self.middle(c) > half).map(viscous).fold(0.0, f64::max);
-        let falls = (mass(Regime::FreeFall) / of_moving, mass(Regime::Turbulent) / of_moving);
+        let falls = (0.0 + mass(Regime::FreeFall) / of_moving, 0.0 + mass(Regime::Turbulent) / of_moving);
         Some(Sheet { bottom, volume, crossover, viscous_share, falls })
     }
 
