@@ -66,6 +66,16 @@ pub enum SolveError {
         /// solid volume of the bed at rest, per area [m]
         bed_m: f64,
     },
+    /// A bed whose loosening feeds itself.
+    #[error(
+        "no level of the bed holds its grains: from {rest_m:.6} m at rest it was raised to {reached_m:.6} m, where nothing stays at rest; a looser bed leaves a thinner, steeper flow, which loosens it more"
+    )]
+    BedRunsAway {
+        /// bed level at rest [m]
+        rest_m: f64,
+        /// level up to which it was raised [m]
+        reached_m: f64,
+    },
     /// A lid that would have to drive the flow.
     #[error("the lid would have to push: its stress comes out as {stress_pa:.6} Pa against the flow, less than none")]
     LidPushes {
@@ -157,6 +167,7 @@ impl SolveError {
             Self::NoStaticBed { .. } => "no-static-bed",
             Self::NothingAtRest { .. } => "nothing-at-rest",
             Self::BedSuspended { .. } => "bed-suspended",
+            Self::BedRunsAway { .. } => "bed-runs-away",
             Self::LidPushes { .. } => "lid-pushes",
             Self::NoSteadyFilm { .. } => "no-steady-film",
             Self::OutOfReach { .. } => "out-of-reach",
@@ -176,6 +187,7 @@ impl SolveError {
             Self::WholeBedMoves { limit_pa_m, .. } => {
                 format!("drive it with less than {limit_pa_m:.4} Pa/m, or make the bed deeper (bed.level)")
             }
+            Self::BedRunsAway { .. } => "lower the drive, or leave more room above the bed (flow.height)".into(),
             Self::NothingAtRest { .. } => "lower the drive or the slope, or make the bed deeper (bed.level)".into(),
             Self::BedSuspended { .. } => {
                 "lower the drive, make the bed deeper (bed.level), or take grains that settle faster".into()

@@ -123,14 +123,14 @@ const FIRST: f64 = 0.75;
 /// `m dr/dm = F - r` relaxes at the rate `1 - dF/dr`, about this many times 1/m.
 const RELAXATION: f64 = 16.0;
 
-/// Weight of the cell below node `j` in the drag there: 1/2, order 2, and just as much more as keeps the relaxation from
-/// oscillating where the mesh is coarser than an eighth of the depth: in the first cells.
+/// Weight of the cell below node `j` in the drag there: 1/2, and more where the relaxation is faster than the mesh, so that
+/// it does not oscillate (exponential fitting: exact for a linear relaxation, order 2).
 fn weight_below(mesh: &Mesh, j: usize) -> f64 {
     if j == 0 {
         return 1.0;
     }
     let z = RELAXATION * (mesh.middles[j] - mesh.middles[j - 1]) / mesh.nodes[j];
-    (1.0 - 1.0 / z).max(0.5)
+    if z < 1e-3 { 0.5 + z / 12.0 } else { 1.0 - 1.0 / z + 1.0 / z.exp_m1() }
 }
 
 /// Share of the volume of node `j` that lies below the cut.

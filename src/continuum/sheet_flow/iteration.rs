@@ -64,7 +64,7 @@ impl Column {
         for turn in 0..pace.most {
             self.exchange(&mut state);
             if self.velocities(&mut state, &cells, pace.dt).is_none() {
-                return Err(Stalled { residual: smallest, iterations: turn });
+                return Err(Stalled::new(smallest, turn));
             }
             for c in (0..n).rev() {
                 cells[c] = self.lag(&mut state, c);
@@ -79,11 +79,11 @@ impl Column {
                     return Ok(state);
                 }
                 if !norm.is_finite() || stop(turn, norm) {
-                    return Err(Stalled { residual: smallest, iterations: turn });
+                    return Err(Stalled::new(smallest, turn));
                 }
             }
         }
-        Err(Stalled { residual: smallest, iterations: pace.most })
+        Err(Stalled::new(smallest, pace.most))
     }
 
     /// Laws in cell `c` from the velocities: sets its friction, stress and decompaction, and gives its coefficients.

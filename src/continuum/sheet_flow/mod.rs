@@ -18,6 +18,8 @@ mod profile;
 pub mod solve;
 pub mod start;
 pub mod suspension;
+#[cfg(test)]
+mod tests;
 
 pub use equations::equations;
 pub use outcome::run;

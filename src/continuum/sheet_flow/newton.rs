@@ -30,6 +30,16 @@ pub struct Stalled {
     pub residual: f64,
     /// iterations made
     pub iterations: usize,
+    /// level that the bed reached without holding its grains, in grain diameters, where that is the reason
+    pub level: Option<f64>,
+}
+
+impl Stalled {
+    /// A method that went nowhere.
+    #[must_use]
+    pub fn new(residual: f64, iterations: usize) -> Self {
+        Self { residual, iterations, level: None }
+    }
 }
 
 /// Iterations before giving up.
@@ -85,10 +95,10 @@ impl Column {
             state = next;
             without = if decreased { 0 } else { without + 1 };
             if without > PATIENCE {
-                return Err(Stalled { residual: best.0, iterations: iteration });
+                return Err(Stalled::new(best.0, iteration));
             }
         }
-        if best.0 <= TOLERANCE { Ok(best.1) } else { Err(Stalled { residual: best.0, iterations: history.len() }) }
+        if best.0 <= TOLERANCE { Ok(best.1) } else { Err(Stalled::new(best.0, history.len())) }
     }
 
     /// Scales of the rows of a node and its cell, then of the closing equations.

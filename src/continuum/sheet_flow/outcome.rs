@@ -32,7 +32,7 @@ pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
     let (flow, setting) = (Flow::scaled(sheet), Setting::scaled(sheet));
     let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
     let solved = match sheet.method {
-        _ if stopped => Err(Stalled { residual: f64::INFINITY, iterations: 0 }),
+        _ if stopped => Err(Stalled::new(f64::INFINITY, 0)),
         SheetMethod::Newton => solve::solve(flow, setting, cells),
         SheetMethod::Iteration => {
             let (dt, tolerance, most) = sheet.pace;
@@ -47,7 +47,7 @@ pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
     if stopped {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
     }
-    let solved = solved.map_err(|stalled| unsolved(&flow, &setting, stalled))?;
+    let solved = solved.map_err(|stalled| unsolved(sheet, &flow, &setting, stalled))?;
     let layers = Layers::new(&solved.column, &solved.state);
     refuse(sheet, &solved, &layers)?;
     let results = results(sheet, &solved, &layers);
@@ -61,7 +61,10 @@ pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
 }
 
 /// Why the method found nothing: no bed at rest can exist, or it failed.
-fn unsolved(flow: &Flow, setting: &Setting, stalled: Stalled) -> SolveError {
+fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled) -> SolveError {
+    if let Some(level) = stalled.level {
+        return SolveError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d };
+    }
     // Grains at rest in a deep bed carry the slope of the whole mixture, at most mu_s P_p.
     let sine = setting.sine.or_else(|| {
         let free = setting.lid == Lid::FreeSurface;

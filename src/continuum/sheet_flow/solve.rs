@@ -29,6 +29,10 @@ const ROUNDING: f64 = 0.02;
 const BEYOND: f64 = 1.2;
 /// Slip of the first guess in grains that creep, in units of the largest slip.
 const SEEPAGE: f64 = 1e-4;
+/// Regularisation, scaled, and pace of the iteration where no first guess of Newton's method leads anywhere.
+const DETOUR: (f64, Pace) = (1e-5, Pace { dt: 1.0, tolerance: 1e-6, most: 20_000 });
+/// Steps in which the bed level rises, as a share of the height above it.
+const STEP: f64 = 0.03;
 /// Factor between regularisations, where one step from the exact yield is too long.
 const LADDER: f64 = 100.0;
 /// Smallest rung of that ladder, scaled.
@@ -49,43 +53,86 @@ pub struct Solved {
     pub change_of_type: f64,
 }
 
+/// A column with the exact yield, its solution, and the depth of the change of type.
+type Exact = (Column, State, f64);
+
 /// Solves the column on `cells` cells.
 ///
 /// # Errors
 /// [`Stalled`] with the smallest residual if no way leads to a solution.
 pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stalled> {
     let mut history = Vec::new();
-    let exact = Flow { lambda: 0.0, ..flow };
-    let open = Flow { cut: f64::INFINITY, ..exact };
-    let mut last = Stalled { residual: f64::INFINITY, iterations: 0 };
-    for (coarse_cells, share) in TRIALS {
-        // The amount of grains is settled last.
-        let fixed = Setting { reading: BedReading::Final, ..setting };
-        let (coarse, guess) = Column::start(open, fixed, coarse_cells.min(cells), share);
-        let attempt = coarse.newton(guess, &mut history).and_then(|state| {
-            let mobile = coarse.yield_volume(&state);
-            let (mut column, _) = Column::start_at(exact, setting, cells, (share, mobile));
-            column.flow.cut = column.flow.cut.max(BEYOND * coarse.change_of_type(&state));
-            let mut state = column.newton(transfer(&state, &coarse.mesh, &column.mesh), &mut history)?;
-            let mut depth = column.change_of_type(&state);
-            while BEYOND * depth > column.flow.cut * (1.0 + ROUNDING) {
-                column.flow.cut = BEYOND * depth;
-                state = column.newton(state, &mut history)?;
-                depth = column.change_of_type(&state);
-            }
-            Ok((column, state, depth))
-        });
+    let mut last = Stalled { residual: f64::INFINITY, iterations: 0, level: None };
+    for trial in TRIALS.into_iter().map(Some).chain([None]) {
+        let attempt = coarse(flow, setting, trial, cells, &mut history)
+            .and_then(|from| refine(flow, setting, cells, &from, &mut history));
         match attempt {
             Ok((mut column, state, change_of_type)) => {
                 let exact = (flow.lambda > 0.0).then(|| state.clone());
                 let state = column.creep(state, flow.lambda, &mut history)?;
                 return Ok(Solved { column, state, exact, history, change_of_type });
             }
-            Err(stalled) if stalled.residual < last.residual => last = stalled,
-            Err(_) => {}
+            Err(stalled) => {
+                if stalled.residual < last.residual || stalled.level.is_some() {
+                    last = stalled;
+                }
+                if stalled.level.is_some() {
+                    break;
+                }
+            }
         }
     }
     Err(Stalled { iterations: history.len(), ..last })
+}
+
+/// The exact yield on a coarse mesh, at the given bed level and without the term that makes the equations change type: from
+/// the guess of a trial, or for `None` by some turns of the iteration, which is slow and goes where Newton does not.
+fn coarse(
+    flow: Flow,
+    setting: Setting,
+    trial: Option<(usize, f64)>,
+    cells: usize,
+    history: &mut Vec<f64>,
+) -> Result<(Column, State), Stalled> {
+    let open = Flow { cut: f64::INFINITY, lambda: 0.0, ..flow };
+    // The amount of grains is settled last.
+    let setting = Setting { reading: BedReading::Final, ..setting };
+    let (size, share) = trial.unwrap_or(TRIALS[0]);
+    let (mut column, mut state) = Column::start(open, setting, size.min(cells), share);
+    if trial.is_none() {
+        column.flow.lambda = DETOUR.0;
+        state = column.iterate(state, &DETOUR.1, history, |_, _| false)?;
+        state = column.newton(state, history)?;
+        column.flow.lambda = 0.0;
+    }
+    let state = column.newton(state, history)?;
+    Ok((column, state))
+}
+
+/// From the coarse mesh to the wanted one, with the term, and to the wanted reading.
+fn refine(
+    flow: Flow,
+    setting: Setting,
+    cells: usize,
+    (coarse, rough): &(Column, State),
+    history: &mut Vec<f64>,
+) -> Result<Exact, Stalled> {
+    let exact = Flow { lambda: 0.0, ..flow };
+    let mobile = coarse.yield_volume(rough);
+    let (mut column, _) = Column::start_at(exact, setting, cells, (TRIALS[0].1, mobile));
+    column.flow.cut = column.flow.cut.max(BEYOND * coarse.change_of_type(rough));
+    let start = transfer(rough, &coarse.mesh, &column.mesh);
+    let mut state = match column.newton(start.clone(), history) {
+        Err(_) if setting.reading == BedReading::Initial => column.rise(start, history)?,
+        other => other?,
+    };
+    let mut depth = column.change_of_type(&state);
+    while BEYOND * depth > column.flow.cut * (1.0 + ROUNDING) {
+        column.flow.cut = BEYOND * depth;
+        state = column.newton(state, history)?;
+        depth = column.change_of_type(&state);
+    }
+    Ok((column, state, depth))
 }
 
 /// Iterates the column on `cells` cells from a first guess, with a cut as deep as it turns out to be needed.
@@ -142,6 +189,32 @@ impl Column {
         let (a, b) = (self.mesh.middles[c], self.mesh.middles[c + 1]);
         let share = (state.r(c) - mu_s) / (state.r(c) - state.r(c + 1));
         Some(state.m * (a + share * (b - a)))
+    }
+
+    /// The solution that conserves the grains, from the one at the level of the bed at rest: the level in the flow rises in
+    /// small steps until the grains are all there.
+    fn rise(&mut self, start: State, history: &mut Vec<f64>) -> Result<State, Stalled> {
+        let wanted = self.setting;
+        let step = STEP * (wanted.height - wanted.level);
+        self.setting.reading = BedReading::Final;
+        let mut state = self.newton(start, history)?;
+        let found = loop {
+            let missing = wanted.closing_residual(&self.flow, &self.meshes, &self.mesh, &state)[2];
+            if missing >= 0.0 {
+                break Ok(state);
+            }
+            self.setting.level += step;
+            let at_rest = state.r(self.mesh.cells() - 1) < self.flow.friction.mu_s;
+            state = match self.newton(state, history) {
+                Ok(next) if at_rest && self.setting.level < wanted.height => next,
+                _ => {
+                    let residual = history.last().copied().unwrap_or(f64::INFINITY);
+                    break Err(Stalled { residual, iterations: history.len(), level: Some(self.setting.level) });
+                }
+            };
+        };
+        self.setting = wanted;
+        self.newton(found?, history)
     }
 
     /// From the exact yield to the regularisation `lambda`: at once, or by smaller ones.

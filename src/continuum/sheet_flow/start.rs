@@ -11,9 +11,9 @@ use crate::closures::lid::Lid;
 /// Solid fraction of the moving layer in the first guess.
 const MEAN_PHI: f64 = 0.45;
 /// Share of the cells in the bed.
-const IN_BED: f64 = 0.75;
+const IN_BED: f64 = 0.72;
 /// Scale of the mesh under the interface, in grain diameters of solid volume.
-const TOP: f64 = 0.02;
+const TOP: f64 = 0.01;
 
 impl Column {
     /// The mesh of `cells` cells for a flow, and a first guess on it: the grains shear at the share `friction` of the range
