@@ -45,7 +45,7 @@ impl Mesh {
         let corner = |x: f64| ((x - 1.0) / CORNER).asinh() / (2.0 * (1.0 / CORNER).asinh());
         let mut mesh = Self::by_count(cells, |x| {
             let y = x / mobile;
-            0.42 * log(y) + 0.25 * even(y) + 0.27 * corner(y) + 0.06 * x
+            0.38 * log(y) + 0.32 * even(y) + 0.22 * corner(y) + 0.08 * x
         });
         // The pressure of a cell is that at half of its volume.
         mesh.middles = mesh.nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();

@@ -120,9 +120,18 @@ fn refine(
     let exact = Flow { lambda: 0.0, ..flow };
     let mobile = coarse.yield_volume(rough);
     let (mut column, _) = Column::start_at(exact, setting, cells, (TRIALS[0].1, mobile));
-    column.flow.cut = column.flow.cut.max(BEYOND * coarse.change_of_type(rough));
+    let cut = column.flow.cut.max(BEYOND * coarse.change_of_type(rough));
+    column.flow.cut = cut;
     let start = transfer(rough, &coarse.mesh, &column.mesh);
-    let mut state = match column.newton(start.clone(), history) {
+    let mut attempt = column.newton(start.clone(), history);
+    if attempt.is_err() {
+        // The mesh first, the term then.
+        column.flow.cut = f64::INFINITY;
+        let open = column.newton(start.clone(), history);
+        column.flow.cut = cut;
+        attempt = open.and_then(|state| column.newton(state, history));
+    }
+    let mut state = match attempt {
         Err(_) if setting.reading == BedReading::Initial => column.rise(start, history)?,
         other => other?,
     };
