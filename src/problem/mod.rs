@@ -6,8 +6,8 @@ mod sheet;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
-pub use sheet::{BedReading, SheetFlow, SheetMethod};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
+pub use sheet::{BedReading, SheetFlow, SheetMethod};
 
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;

@@ -3,10 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::Faults;
-pub use crate::case::sheet::{BedReading, SheetMethod};
 use crate::case::Fault;
 use crate::case::scene::SheetFlow as Scene;
 use crate::case::sheet::SheetSmoothing;
+pub use crate::case::sheet::{BedReading, SheetMethod};
 use crate::case::tables::SlopeDefinition;
 use crate::closures::dilatancy::{Dilatancy, PhiI};
 use crate::closures::drag::{self, Dallavalle, Drag};
@@ -117,7 +117,8 @@ pub(super) fn sheet_flow(scene: &Scene, model: &str, faults: &mut Faults) -> Opt
         faults.push(("flow", Fault::Drives { given: drives, allowed }));
     }
     let sine = flow.slope.map(|slope| slope_sine(slope, flow.slope_definition, faults));
-    let mismatch = |family, law, allowed| Fault::LawMismatch { family, law, model: model.into(), allowed: vec![allowed] };
+    let mismatch =
+        |family, law, allowed| Fault::LawMismatch { family, law, model: model.into(), allowed: vec![allowed] };
     let friction = match closures.friction {
         Friction::MuI(law) => Some(law),
         other => {

@@ -59,7 +59,9 @@ pub enum SolveError {
         shields: f64,
     },
     /// A suspension that takes the bed away.
-    #[error("the suspension takes the bed away: it would hold {suspended_m:.6} m of solid volume, the bed has {bed_m:.6} m")]
+    #[error(
+        "the suspension takes the bed away: it would hold {suspended_m:.6} m of solid volume, the bed has {bed_m:.6} m"
+    )]
     BedSuspended {
         /// solid volume in suspension, per area [m]
         suspended_m: f64,

@@ -48,9 +48,8 @@ impl ColebrookWhite {
     #[must_use]
     pub fn factor<T: Real>(&self, re: T, diameter: T) -> T {
         let relative = T::constant(self.roughness) / (diameter * 3.7);
-        let x = (0..SWEEPS).fold(T::constant(7.0), |x, _| {
-            (relative + x.abs() * 2.51 / re).ln() * (-2.0 / std::f64::consts::LN_10)
-        });
+        let x = (0..SWEEPS)
+            .fold(T::constant(7.0), |x, _| (relative + x.abs() * 2.51 / re).ln() * (-2.0 / std::f64::consts::LN_10));
         T::constant(1.0) / (x * x)
     }
 }

@@ -65,7 +65,9 @@ mod tests {
 
     #[test]
     fn fluidity_is_the_inverse_of_the_viscosity() {
-        for law in [MixtureViscosity::Clear, MixtureViscosity::Einstein, MixtureViscosity::Boyer(Boyer { phi_max: 0.6 })] {
+        for law in
+            [MixtureViscosity::Clear, MixtureViscosity::Einstein, MixtureViscosity::Boyer(Boyer { phi_max: 0.6 })]
+        {
             for phi in [0.0, 0.2, 0.599] {
                 assert_relative_eq!(law.fluidity(phi) * law.relative(phi), 1.0, max_relative = 1e-14);
             }

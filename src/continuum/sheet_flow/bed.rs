@@ -286,8 +286,7 @@ impl Linearised {
             self.put_node(row, c, n, &mixture);
             self.put_node(row + 1, c, n, &grains);
             above = side(cell, state.s(c), 0);
-            let jumps =
-                [state.u(c) - state.u(c + 1), state.w(c) - state.w(c + 1), state.d(c) - state.d(c + 1)];
+            let jumps = [state.u(c) - state.u(c + 1), state.w(c) - state.w(c + 1), state.d(c) - state.d(c + 1)];
             for (k, (loss, jump)) in losses(flow, cell).into_iter().zip(jumps).enumerate() {
                 self.put_cell(row + 2 + k, c, n, &-loss, jump);
                 self.jacobian.add(row + 2 + k, row + k, 1.0);

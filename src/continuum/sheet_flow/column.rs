@@ -149,7 +149,8 @@ impl Setting {
         Closing {
             residual: all.map(|x| x.value),
             by_globals: all.map(|x| {
-                let phi = |i: usize| x.slope[0] * (weights.0 * cells[0].phi.slope[i] + weights.1 * cells[1].phi.slope[i]);
+                let phi =
+                    |i: usize| x.slope[0] * (weights.0 * cells[0].phi.slope[i] + weights.1 * cells[1].phi.slope[i]);
                 [x.slope[3], x.slope[4] + phi(7), x.slope[5] + phi(6)]
             }),
             by_unknowns: all.map(|x| {

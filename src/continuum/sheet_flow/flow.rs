@@ -161,17 +161,6 @@ impl Flow {
         let a = (-phi + 1.0) * length * length;
         let (shear, tau_f) = Self::shear(x.s, a, self.viscosity.fluidity(phi) / self.nu);
         let dm = x.m * size;
-        Cell {
-            dm,
-            dz: dm / phi,
-            phi,
-            inertia,
-            pressure,
-            gamma,
-            rate: shear,
-            tau_p: x.r * pressure,
-            tau_f,
-            length,
-        }
+        Cell { dm, dz: dm / phi, phi, inertia, pressure, gamma, rate: shear, tau_p: x.r * pressure, tau_f, length }
     }
 }

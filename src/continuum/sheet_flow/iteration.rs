@@ -102,10 +102,7 @@ impl Column {
         let friction = flow.friction.mu(inertia) / (speed + flow.lambda);
         state.x[k + 3] = friction * strain / old.dz;
         state.x[k + 2] = state.d(c + 1) + dz - old.dm / flow.dilatancy.phi_max;
-        let length = flow.mixing_length(
-            0.5 * (state.d(c) + state.d(c + 1)),
-            state.m * (1.0 - self.mesh.middles[c]),
-        );
+        let length = flow.mixing_length(0.5 * (state.d(c) + state.d(c + 1)), state.m * (1.0 - self.mesh.middles[c]));
         let mixture = flow.nu / flow.viscosity.fluidity(phi);
         let eddy = (1.0 - phi) * length * length * (shear / dz).abs();
         state.x[k + 4] = (mixture + eddy) * shear / dz;

@@ -1,12 +1,12 @@
 //! A solved column, cell by cell, and what it comes down to. Units of the model.
 
 use super::bed;
+use super::bed::State;
 use super::column::{Setting, interface_weights};
 use super::flow::Cell;
 use super::newton::Column;
 use super::solve::Solved;
 use super::suspension::{Inflow, Level, Totals, march};
-use super::bed::State;
 use crate::closures::rearrangement::Regime;
 
 /// Solid fraction of the bottom of the sheet, relative to that at rest.

@@ -124,9 +124,11 @@ fn results(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Results {
     results.set(&q::SOLID_VOLUME_SUSPENSION, layers.totals.volume * d);
     results.set(&q::SLOPE_SINE, state.sine);
     results.set(&q::LID_STRESS, layers.lid * stress);
-    let fastest = layers.levels.iter().map(|level| (level.u, level.z)).fold((layers.inflow.u, 0.0), |a, b| {
-        if b.0 > a.0 { b } else { a }
-    });
+    let fastest = layers
+        .levels
+        .iter()
+        .map(|level| (level.u, level.z))
+        .fold((layers.inflow.u, 0.0), |a, b| if b.0 > a.0 { b } else { a });
     results.set(&q::U_MAX, fastest.0 * velocity);
     results.set(&q::U_MAX_LEVEL, (layers.z[0] + fastest.1) * d);
     results.set(&q::CHANGE_OF_TYPE, solved.change_of_type * d);
@@ -205,7 +207,11 @@ fn balances(solved: &Solved, layers: &Layers) -> Vec<Balance> {
     if column.setting.lid != Lid::Solved {
         let height = column.setting.height - layers.z[0];
         let flow = column.flow.fluid_weight(state.sine) * height - layers.lid;
-        balances.push(balance("momentum_above", flow / state.tau_b - 1.0, "drive of the flow less the lid against the bed"));
+        balances.push(balance(
+            "momentum_above",
+            flow / state.tau_b - 1.0,
+            "drive of the flow less the lid against the bed",
+        ));
     }
     if let Some(last) = solved.history.iter().copied().reduce(|_, last| last) {
         balances.push(balance("solver", last, "last residual of the method"));

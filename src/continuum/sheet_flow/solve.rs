@@ -11,18 +11,8 @@ use crate::problem::BedReading;
 
 /// Cells of the coarse mesh, and share of the range of the friction at which the first guess lets the grains shear; tried in
 /// turn.
-const TRIALS: [(usize, f64); 10] = [
-    (80, 0.8),
-    (80, 0.6),
-    (120, 0.8),
-    (50, 0.8),
-    (80, 0.9),
-    (50, 0.6),
-    (120, 0.5),
-    (200, 0.7),
-    (80, 0.4),
-    (160, 0.9),
-];
+const TRIALS: [(usize, f64); 10] =
+    [(80, 0.8), (80, 0.6), (120, 0.8), (50, 0.8), (80, 0.9), (50, 0.6), (120, 0.5), (200, 0.7), (80, 0.4), (160, 0.9)];
 /// A cut that is short by less than this share is long enough.
 const ROUNDING: f64 = 0.02;
 /// The cut lies this far below the change of type.

@@ -23,7 +23,13 @@ const BED: f64 = 5.0;
 
 /// Manufactured fields over the solid volume m: friction, fluid stress, slip, decompaction, velocity of the grains.
 fn fields(m: f64) -> [f64; 5] {
-    [0.6 + 0.05 * m.cos(), 1.0 + 0.3 * m.sin(), 0.3 + 0.1 * (2.0 * m).cos(), 3.0 - 0.2 * m - 0.01 * m * m, 2.0 - 0.3 * m]
+    [
+        0.6 + 0.05 * m.cos(),
+        1.0 + 0.3 * m.sin(),
+        0.3 + 0.1 * (2.0 * m).cos(),
+        3.0 - 0.2 * m - 0.01 * m * m,
+        2.0 - 0.3 * m,
+    ]
 }
 
 /// The laws at m for the manufactured fields.
@@ -57,7 +63,8 @@ fn the_discrete_operators_are_those_of_the_equations_at_order_two() {
             let slope = |f: &dyn Fn(f64) -> f64| derivative(f, m);
             let (tau_p, tau_f) = (slope(&|m| laws(&flow, m).tau_p), slope(&|m| laws(&flow, m).tau_f));
             let mixture = -slope(&|m| fields(m)[1]) - tau_p + flow.fluid_weight(SINE) / here.phi + SINE;
-            let grains = -tau_p - here.phi * tau_f + flow.drag(here.phi, fields(m)[2]) / here.phi + flow.grain_weight(SINE);
+            let grains =
+                -tau_p - here.phi * tau_f + flow.drag(here.phi, fields(m)[2]) / here.phi + flow.grain_weight(SINE);
             let m = BED * mesh.middles[c];
             let here = laws(&flow, m);
             let slope = |k: usize| derivative(&|m| fields(m)[k], m);
