@@ -1,7 +1,8 @@
 //! From a problem to an outcome: the one entry point that the command line and every study call.
 
+use crate::closures::dilatancy::{phi_i, phi_iv};
 use crate::closures::drag::{carman_kozeny, dallavalle};
-use crate::closures::{Info, dilatancy, friction, mixing_length, wall};
+use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::{laminar, sheet_flow};
 use crate::problem::{Model, Problem, RegularisedBed};
@@ -50,13 +51,14 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             let friction = if bed.rise.is_some() { &friction::mu_iv::INFO } else { &friction::coulomb::INFO };
             let mut laws = vec![friction, bed.viscosity.info()];
             laws.extend(bed.drag.map(|_| &carman_kozeny::INFO));
+            laws.extend(bed.dilatancy.map(|_| &phi_iv::INFO));
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
         Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
         Model::SheetFlow(flow) => vec![
             &friction::mu_i::INFO,
-            &dilatancy::phi_i::INFO,
+            &phi_i::INFO,
             flow.rearrangement.info(),
             flow.viscosity.info(),
             &dallavalle::INFO,

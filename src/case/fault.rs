@@ -220,7 +220,7 @@ pub enum Fault {
         law: &'static str,
         /// its phi_max
         phi_max: f64,
-        /// that of the dilatancy
+        /// that of the bed
         bed: f64,
     },
     /// The pseudo-time iteration with the exact yield.
@@ -370,9 +370,7 @@ impl Fault {
                 Some("`bedload new` writes a case to start from".into())
             }
             Self::Floating { .. } => Some("grains.density must exceed fluid.density".into()),
-            Self::IterationNeedsCreep => {
-                Some("add [regularisation] with law = \"simple\" and a lambda, or take method = \"newton\"".into())
-            }
+            Self::IterationNeedsCreep => Some("give [regularisation] a law and a lambda, or take newton".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
             Self::CheckLevel { column: true, .. } => Some("for example at = \"10 mm\"".into()),
             Self::CheckLevel { .. } => Some("remove it".into()),

@@ -16,6 +16,7 @@ pub static CASES: &[(&str, &str)] = shipped![
     "exact_1d_ouriemi",
     "exact_1d_ouriemi_mixed",
     "laminar_1d_aussillous",
+    "laminar_1d_muiv",
     "laminar_1d_ouriemi",
     "sheet_1d_cowen",
     "sheet_1d_sumer82",

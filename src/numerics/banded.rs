@@ -110,8 +110,9 @@ impl Banded {
             side.swap(k, p);
             let x = side[k];
             if x != 0.0 {
-                for i in k + 1..=(k + lower).min(n - 1) {
-                    side[i] -= self.entries[i * width + k + lower - i] * x;
+                let last = (k + lower).min(n - 1);
+                for (i, value) in side.iter_mut().enumerate().take(last + 1).skip(k + 1) {
+                    *value -= self.entries[i * width + k + lower - i] * x;
                 }
             }
         }

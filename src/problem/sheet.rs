@@ -8,7 +8,7 @@ use crate::case::scene::SheetFlow as Scene;
 use crate::case::sheet::SheetSmoothing;
 pub use crate::case::sheet::{BedReading, SheetMethod};
 use crate::case::tables::SlopeDefinition;
-use crate::closures::dilatancy::{Dilatancy, PhiI};
+use crate::closures::dilatancy::{self, Dilatancy, PhiI};
 use crate::closures::drag::{self, Dallavalle, Drag};
 use crate::closures::friction::{self, Friction, MuI};
 use crate::closures::lid::Lid;
@@ -94,7 +94,15 @@ pub(super) fn sheet_flow(scene: &Scene, model: &str, faults: &mut Faults) -> Opt
     if grains.density <= fluid.density {
         faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
     }
-    let Dilatancy::PhiI(dilatancy) = closures.dilatancy;
+    let dilatancy = match closures.dilatancy {
+        Dilatancy::PhiI(law) => law,
+        other => {
+            let (law, allowed) = (other.info().law, vec![dilatancy::phi_i::INFO.law]);
+            let fault = Fault::LawMismatch { family: "dilatancy", law, model: model.into(), allowed };
+            faults.push(("closures.dilatancy.law", fault));
+            return None;
+        }
+    };
     if let MixtureViscosity::Boyer(law) = closures.mixture_viscosity
         && law.phi_max < dilatancy.phi_max
     {

@@ -1,19 +1,27 @@
-//! Dilatancy of the grains: the solid fraction at which they shear.
+//! How grains spread where they shear.
 
+pub mod none;
 pub mod phi_i;
+pub mod phi_iv;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Info;
 pub use phi_i::PhiI;
+pub use phi_iv::PhiIv;
 
-/// Dilatancy law of the granular phase.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+/// Law of the solid fraction of sheared grains.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(tag = "law", rename_all = "kebab-case")]
 pub enum Dilatancy {
-    /// Solid fraction that falls with the root of the inertial number.
+    /// The solid fraction of the bed, sheared or not.
+    #[default]
+    None,
+    /// The solid fraction falls with the root of the inertial number.
     PhiI(PhiI),
+    /// The solid fraction falls with the viscous number.
+    PhiIv(PhiIv),
 }
 
 impl Dilatancy {
@@ -21,7 +29,9 @@ impl Dilatancy {
     #[must_use]
     pub fn info(&self) -> &'static Info {
         match self {
+            Self::None => &none::INFO,
             Self::PhiI(_) => &phi_i::INFO,
+            Self::PhiIv(_) => &phi_iv::INFO,
         }
     }
 }
