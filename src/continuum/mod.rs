@@ -3,3 +3,4 @@
 mod bed_results;
 pub mod exact;
 pub mod laminar;
+pub mod sheet_flow;
