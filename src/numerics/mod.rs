@@ -4,4 +4,5 @@ pub mod block_thomas;
 pub mod levels;
 pub mod quadrature;
 pub mod root;
+pub mod sum;
 pub mod thomas;
