@@ -51,7 +51,8 @@ fn engine(grains: &[Grain], copies: usize, threads: usize) -> Engine<LinearSprin
     let lammps = Some(Lammps { inverse_mass: 2.0 / mass });
     let law = LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, zeta, tension: Tension::Kept, lammps };
     let domain = Domain { periods: [Some(copies as f64 * LENGTH[0]), Some(LENGTH[1])], walls: Vec::new() };
-    let settings = Settings::new(1.8e-5, [0.0, 0.0, -9.81], D);
+    let mut settings = Settings::new(1.8e-5, [0.0, 0.0, -9.81], D);
+    if let Some(x) = std::env::var("SKIN").ok().and_then(|x| x.parse::<f64>().ok()) { settings.skin = x * D; }
     Engine::new(grains, domain, law, settings, threads).unwrap()
 }
 

@@ -98,13 +98,22 @@ impl Cells {
         let (x, y, z) = (own % nx, own / nx % ny, own / (nx * ny));
         let (xs, x_count) = around(x, nx, self.periodic[0]);
         let (ys, y_count) = around(y, ny, self.periodic[1]);
-        visit(i + 1..self.starts[own + 1] as usize);
+        let start = |cell: usize| self.starts[cell] as usize;
+        // Cells that follow each other along x are one range.
+        let runs = if x_count == 3 && xs[2] != xs[0] + 2 {
+            if xs[1] == 1 { [(0, 1), (xs[2], xs[2])] } else { [(0, 0), (xs[1], xs[2])] }
+        } else {
+            [(xs[0], xs[x_count - 1]), (1, 0)]
+        };
         for above in z..nz.min(z + 2) {
             for &row in &ys[..y_count] {
-                for &column in &xs[..x_count] {
-                    let other = self.index([column, row, above]);
-                    if other > own {
-                        visit(self.starts[other] as usize..self.starts[other + 1] as usize);
+                let first = self.index([0, row, above]);
+                for (from, to) in runs {
+                    let (from, to) = ((first + from).max(own), first + to);
+                    if from > own && from <= to {
+                        visit(start(from)..start(to + 1));
+                    } else if from == own && from <= to {
+                        visit(i + 1..start(to + 1));
                     }
                 }
             }

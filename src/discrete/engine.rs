@@ -5,9 +5,9 @@ use super::body::Body;
 use super::cells::Cells;
 use super::domain::Domain;
 use super::error::GrainError;
-use super::forces;
+use super::forces::{self, Scene, Touching};
 use super::grains::{Grain, Grains, Point};
-use super::integrate::{self, Lengths, Rows};
+use super::integrate::{self, Lengths, Mover, Rows};
 use super::lanes::{Backend, Row};
 use super::law::ContactLaw;
 use super::ledger::Ledger;
@@ -62,6 +62,7 @@ pub struct Engine<C> {
     cells: Cells,
     order: Vec<u32>,
     rebuilds: u64,
+    scratch: Vec<Touching>,
 }
 
 /// Most grains: indices are 32-bit words.
@@ -98,6 +99,7 @@ impl<C: ContactLaw> Engine<C> {
     /// Grains without a list.
     pub(super) fn bare(grains: Grains, domain: Domain, law: C, settings: Settings, threads: usize) -> Self {
         let pool = Pool::new(threads);
+        let scratch = vec![Touching::default(); pool.threads()];
         Self {
             law,
             domain,
@@ -116,6 +118,7 @@ impl<C: ContactLaw> Engine<C> {
             cells: Cells::default(),
             order: Vec::new(),
             rebuilds: 0,
+            scratch,
         }
     }
 
@@ -179,25 +182,26 @@ impl<C: ContactLaw> Engine<C> {
 
     /// Computes what acts on every grain.
     pub(super) fn forces(&mut self, dt: f64) {
-        let Self { law, domain, grains, tiles, backend, pool, bounds, .. } = self;
-        let parts = Parts::new(tiles);
-        pool.each(bounds, |t| {
-            // SAFETY: each tile is a part of its own.
-            let tile = unsafe { parts.part(t..t + 1) };
-            forces::compute(*backend, law, domain, grains, &mut tile[0], dt);
+        let Self { law, domain, grains, tiles, backend, pool, bounds, scratch, .. } = self;
+        let scene = Scene { law, domain, grains, dt };
+        let (tiles, scratch) = (Parts::new(tiles), Parts::new(scratch));
+        pool.each(bounds, |thread, t| {
+            // SAFETY: each tile and each thread is a part of its own.
+            let (tile, scratch) = unsafe { (tiles.part(t..t + 1), scratch.part(thread..thread + 1)) };
+            forces::compute(*backend, scene, &mut tile[0], &mut scratch[0]);
         });
     }
 
     fn kick_and_drift<B: Body>(&mut self, body: &B, lengths: Lengths) {
         let Self { grains, tiles, moved, backend, pool, bounds, settings, .. } = self;
-        let gravity = settings.gravity;
+        let mover = Mover { tiles: tiles.as_slice(), gravity: settings.gravity, body, step: lengths };
         let results = Parts::new(moved);
         let positions = Parts::new(&mut grains.positions);
         let velocities = Parts::new(&mut grains.velocities);
         let spins = Parts::new(&mut grains.spins);
         let ids = &grains.ids;
-        pool.each(bounds, |t| {
-            let range = tiles[t].grains.clone();
+        pool.each(bounds, |_, t| {
+            let range = mover.tiles[t].grains.clone();
             // SAFETY: tiles are disjoint, and each is a part of its own.
             let (rows, result) = unsafe {
                 let rows = Rows {
@@ -208,7 +212,7 @@ impl<C: ContactLaw> Engine<C> {
                 };
                 (rows, results.part(t..t + 1))
             };
-            result[0] = integrate::advance(*backend, tiles, t, rows, gravity, body, lengths);
+            result[0] = integrate::advance(*backend, mover, t, rows);
         });
     }
 
@@ -241,7 +245,7 @@ impl<C: ContactLaw> Engine<C> {
         let count = tiles.len();
         let even: Vec<usize> = (0..=pool.threads()).map(|k| k * count / pool.threads()).collect();
         let parts = Parts::new(tiles);
-        pool.each(&even, |t| {
+        pool.each(&even, |_, t| {
             // SAFETY: each tile is a part of its own.
             let tile = &mut unsafe { parts.part(t..t + 1) }[0];
             tile.list(grains, cells, domain, settings.skin, before);

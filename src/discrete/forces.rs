@@ -11,8 +11,9 @@ use super::law::{Contact, ContactLaw};
 use super::tile::{BLOCK, Found, GROUP, Tile};
 use super::walls;
 
-/// Pairs of a block that touch: the pair, its slot, and the separation [m].
-struct Touching {
+/// Pairs of a block that touch: the pair, its slot, and the separation [m]. One a thread.
+#[derive(Clone, Debug)]
+pub struct Touching {
     pairs: [Pair; BLOCK + GROUP],
     slots: [u64; BLOCK + GROUP],
     apart: [[f64; BLOCK + GROUP]; 3],
@@ -20,16 +21,41 @@ struct Touching {
     reach: [f64; BLOCK + GROUP],
 }
 
-/// Computes what acts on the grains of `tile` and behind it; the springs follow a step of `dt` [s], or stay if it is 0.
-pub fn compute<C: ContactLaw>(backend: Backend, law: &C, domain: &Domain, grains: &Grains, tile: &mut Tile, dt: f64) {
+impl Default for Touching {
+    fn default() -> Self {
+        Self {
+            pairs: [Pair::default(); BLOCK + GROUP],
+            slots: [0; BLOCK + GROUP],
+            apart: [[0.0; BLOCK + GROUP]; 3],
+            squared: [0.0; BLOCK + GROUP],
+            reach: [0.0; BLOCK + GROUP],
+        }
+    }
+}
+
+/// What a step of the contacts needs to know.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a, C> {
+    /// the law of contact
+    pub law: &'a C,
+    /// periods and walls
+    pub domain: &'a Domain,
+    /// the grains
+    pub grains: &'a Grains,
+    /// time that the springs follow [s]; 0 leaves them as they are
+    pub dt: f64,
+}
+
+/// Computes what acts on the grains of `tile` and behind it.
+pub fn compute<C: ContactLaw>(backend: Backend, scene: Scene<'_, C>, tile: &mut Tile, scratch: &mut Touching) {
     match backend {
-        Backend::Scalar => tile_forces::<C, One>((), law, domain, grains, tile, dt),
+        Backend::Scalar => tile_forces::<C, One>((), scene, tile, scratch),
         #[cfg(target_arch = "x86_64")]
         // SAFETY: the proof says that the machine has the instructions.
-        Backend::Avx2(proof) => unsafe { on_avx2(proof, law, domain, grains, tile, dt) },
+        Backend::Avx2(proof) => unsafe { on_avx2(proof, scene, tile, scratch) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Backend::Avx512(proof) => unsafe { on_avx512(proof, law, domain, grains, tile, dt) },
+        Backend::Avx512(proof) => unsafe { on_avx512(proof, scene, tile, scratch) },
     }
 }
 
@@ -37,56 +63,44 @@ pub fn compute<C: ContactLaw>(backend: Backend, law: &C, domain: &Domain, grains
 #[target_feature(enable = "avx2")]
 fn on_avx2<C: ContactLaw>(
     proof: <Four as Lanes>::Proof,
-    law: &C,
-    domain: &Domain,
-    grains: &Grains,
+    scene: Scene<'_, C>,
     tile: &mut Tile,
-    dt: f64,
+    scratch: &mut Touching,
 ) {
-    tile_forces::<C, Four>(proof, law, domain, grains, tile, dt);
+    tile_forces::<C, Four>(proof, scene, tile, scratch);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn on_avx512<C: ContactLaw>(
     proof: <Eight as Lanes>::Proof,
-    law: &C,
-    domain: &Domain,
-    grains: &Grains,
+    scene: Scene<'_, C>,
     tile: &mut Tile,
-    dt: f64,
+    scratch: &mut Touching,
 ) {
-    tile_forces::<C, Eight>(proof, law, domain, grains, tile, dt);
+    tile_forces::<C, Eight>(proof, scene, tile, scratch);
 }
 
 #[inline(always)]
 fn tile_forces<C: ContactLaw, L: Lanes>(
     proof: L::Proof,
-    law: &C,
-    domain: &Domain,
-    grains: &Grains,
+    scene: Scene<'_, C>,
     tile: &mut Tile,
-    dt: f64,
+    touching: &mut Touching,
 ) {
+    let Scene { law, domain, grains, dt } = scene;
     tile.check(grains);
     tile.loads.fill(Load::default());
     tile.found = Found::default();
-    let mut touching = Touching {
-        pairs: [Pair::default(); BLOCK + GROUP],
-        slots: [0; BLOCK + GROUP],
-        apart: [[0.0; BLOCK + GROUP]; 3],
-        squared: [0.0; BLOCK + GROUP],
-        reach: [0.0; BLOCK + GROUP],
-    };
     let mut from = 0;
     while from < tile.pairs.len() {
         let to = (from + BLOCK).min(tile.pairs.len());
-        let count = find::<L>(proof, domain, grains, tile, from, to, &mut touching);
-        apply::<C, L>(proof, law, grains, tile, count, &mut touching, dt);
+        let count = find::<L>(proof, domain, grains, tile, from, to, touching);
+        apply::<C, L>(proof, law, grains, tile, count, touching, dt);
         tile.found.contacts += count;
         from = to;
     }
-    walls::compute::<C, L>(proof, law, domain, grains, tile, dt);
+    walls::compute::<C, L>(proof, scene, tile);
 }
 
 /// Finds the pairs of the slots `from..to` that touch; springs of new contacts begin at zero.

@@ -6,7 +6,9 @@
 
 use super::body::{Body, Seen};
 use super::grains::Point;
-use super::lanes::{Backend, Load, Row};
+#[cfg(target_arch = "x86_64")]
+use super::lanes::avx2::Four;
+use super::lanes::{Backend, Load, Quad, Row};
 use super::tile::{Moved, Tile};
 
 /// Lengths of one step [s].
@@ -31,95 +33,109 @@ pub struct Rows<'a> {
     pub ids: &'a [u32],
 }
 
+/// What moves the grains of one tile.
+#[derive(Debug)]
+pub struct Mover<'a, B> {
+    /// all tiles
+    pub tiles: &'a [Tile],
+    /// gravity [m/s2]
+    pub gravity: Point,
+    /// what acts on each grain besides
+    pub body: &'a B,
+    /// how far
+    pub step: Lengths,
+}
+
+impl<B> Clone for Mover<'_, B> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+impl<B> Copy for Mover<'_, B> {}
+
 /// Moves the grains of tile `t` by one step.
-pub fn advance<B: Body>(
-    backend: Backend,
-    tiles: &[Tile],
-    t: usize,
-    rows: Rows<'_>,
-    gravity: Point,
-    body: &B,
-    step: Lengths,
-) -> Moved {
+pub fn advance<B: Body>(backend: Backend, mover: Mover<'_, B>, t: usize, rows: Rows<'_>) -> Moved {
     match backend {
-        Backend::Scalar => moved(tiles, t, rows, gravity, body, step),
+        Backend::Scalar => moved::<B, Row>((), mover, t, rows),
         #[cfg(target_arch = "x86_64")]
         // SAFETY: the proof says that the machine has the instructions.
-        Backend::Avx2(_) => unsafe { on_avx2(tiles, t, rows, gravity, body, step) },
+        Backend::Avx2(proof) => unsafe { on_avx2(proof, mover, t, rows) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Backend::Avx512(_) => unsafe { on_avx512(tiles, t, rows, gravity, body, step) },
+        Backend::Avx512(proof) => unsafe { on_avx2(proof.narrower(), mover, t, rows) },
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn on_avx2<B: Body>(tiles: &[Tile], t: usize, rows: Rows<'_>, gravity: Point, body: &B, step: Lengths) -> Moved {
-    moved(tiles, t, rows, gravity, body, step)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-fn on_avx512<B: Body>(tiles: &[Tile], t: usize, rows: Rows<'_>, gravity: Point, body: &B, step: Lengths) -> Moved {
-    moved(tiles, t, rows, gravity, body, step)
+fn on_avx2<B: Body>(proof: <Four as Quad>::Proof, mover: Mover<'_, B>, t: usize, rows: Rows<'_>) -> Moved {
+    moved::<B, Four>(proof, mover, t, rows)
 }
 
 #[inline(always)]
-fn moved<B: Body>(tiles: &[Tile], t: usize, rows: Rows<'_>, gravity: Point, body: &B, step: Lengths) -> Moved {
+fn moved<B: Body, Q: Quad>(proof: Q::Proof, mover: Mover<'_, B>, t: usize, rows: Rows<'_>) -> Moved {
+    let Mover { tiles, gravity: [gx, gy, gz], body, step } = mover;
     let tile = &tiles[t];
     let start = tile.grains.start;
     // What earlier tiles did to these grains, added in the order of the tiles.
     let spilled = |other: &'_ Tile| other.grains.start + other.loads.len() > start;
     let from = tiles[..t].iter().position(spilled).unwrap_or(t);
     let earlier = &tiles[from..t];
-    let mut moved = Moved::default();
     let Rows { positions, velocities, spins, ids } = rows;
+    let zero = Q::of(proof, &Row::default());
+    let gravity = Q::of(proof, &Row([gx, gy, gz, 0.0]));
+    let (mut contact, mut weight, mut driven, mut given, mut sane, mut fastest) = (zero, zero, zero, zero, zero, zero);
+    let loads = &tile.loads[..positions.len()];
     for (local, ((x, v), w)) in positions.iter_mut().zip(velocities).zip(spins).enumerate() {
-        let Load(mut load) = tile.loads[local];
+        let [mut force, mut turn] = [Q::of(proof, &loads[local].0[0]), Q::of(proof, &loads[local].0[1])];
         for other in earlier {
-            if let Some(Load(more)) = other.loads.get(start + local - other.grains.start) {
-                for k in 0..8 {
-                    load[k] += more[k];
-                }
+            if let Some(Load([more, twist])) = other.loads.get(start + local - other.grains.start) {
+                force = force.plus(Q::of(proof, more));
+                turn = turn.plus(Q::of(proof, twist));
             }
         }
         let (inverse, mass) = (w.0[3], v.0[3]);
+        let (place, velocity, spin) = (Q::of(proof, x), Q::of(proof, v), Q::of(proof, w));
+        let old = velocity.with_last(zero);
         if inverse == 0.0 {
-            for k in 0..3 {
-                x.0[k] += step.drift * v.0[k];
-            }
+            *x = place.plus(old.times(step.drift)).row();
             continue;
         }
-        let [px, py, pz, radius] = x.0;
-        let seen =
-            Seen { id: ids[local], position: [px, py, pz], velocity: [v.0[0], v.0[1], v.0[2]], radius };
-        let outer = body.force(&seen);
-        let (mut squared, mut contact, mut falling, mut driven) = (0.0, 0.0, 0.0, 0.0);
-        for k in 0..3 {
-            let weight = mass * gravity[k];
-            let total = load[k] + (weight + outer[k]);
-            let (old, old_spin) = (v.0[k], w.0[k]);
-            let new = old + step.kick * (inverse * total);
-            let new_spin = old_spin + step.kick * (2.5 * inverse * load[k + 3]);
-            let (mean, mean_spin) = (0.5 * (old + new), 0.5 * (old_spin + new_spin));
-            v.0[k] = new;
-            w.0[k] = new_spin;
-            x.0[k] += step.drift * new;
-            squared += new * new;
-            contact += load[k] * mean + load[k + 3] * mean_spin;
-            falling += weight * mean;
-            driven += outer[k] * mean;
-            moved.impulse[k] += step.kick * (weight + outer[k]);
-        }
-        if squared > moved.fastest {
-            moved.fastest = squared;
-        }
-        // Infinity minus itself is none, either.
-        let spin = w.0[0] + w.0[1] + w.0[2];
-        moved.sane += (squared - squared) + (spin - spin);
-        moved.contact_work += step.kick * contact;
-        moved.gravity_work += step.kick * falling;
-        moved.body_work += step.kick * driven;
+        let seen = Seen {
+            id: ids[local],
+            position: [x.0[0], x.0[1], x.0[2]],
+            velocity: [v.0[0], v.0[1], v.0[2]],
+            radius: x.0[3],
+        };
+        let [bx, by, bz] = body.force(&seen);
+        let (outer, falling) = (Q::of(proof, &Row([bx, by, bz, 0.0])), gravity.times(mass));
+        let both = falling.plus(outer);
+        let new = old.plus(force.plus(both).times(inverse).times(step.kick));
+        let new_spin = spin.plus(turn.times(2.5 * inverse).times(step.kick));
+        let (mean, mean_spin) = (old.plus(new).times(0.5), spin.plus(new_spin).times(0.5));
+        *x = place.plus(new.times(step.drift)).row();
+        *v = new.with_last(velocity).row();
+        *w = new_spin.row();
+        contact = contact.plus(force.by(mean).plus(turn.by(mean_spin)));
+        weight = weight.plus(falling.by(mean));
+        driven = driven.plus(outer.by(mean));
+        given = given.plus(both);
+        // A number minus itself is 0, infinity minus itself is none.
+        let any = new.plus(new_spin);
+        sane = sane.plus(any.minus(any));
+        fastest = fastest.max(new.by(new));
     }
-    moved
+    let total = |sum: Q| {
+        let [a, b, c, _] = sum.row().0;
+        a + b + c
+    };
+    let [px, py, pz, _] = given.times(step.kick).row().0;
+    Moved {
+        fastest: total(fastest),
+        sane: total(sane),
+        contact_work: step.kick * total(contact),
+        gravity_work: step.kick * total(weight),
+        body_work: step.kick * total(driven),
+        impulse: [px, py, pz],
+    }
 }

@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::lanes::{Load, Pair, Row};
 
 /// Pairs that are looked at before the law is applied to those that touch.
-pub const BLOCK: usize = 512;
+pub const BLOCK: usize = 256;
 /// Pairs whose state of contact shares one byte; lists are padded to a multiple of it.
 pub const GROUP: usize = 8;
 
@@ -26,7 +26,7 @@ pub struct Found {
 /// Sums over the grains of a tile after a step, for the mobile ones.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Moved {
-    /// largest squared velocity, of grains that move at all [m2/s2]
+    /// bound of the squared velocity of the mobile grains [m2/s2]
     pub fastest: f64,
     /// 0, or not a number if any state is none
     pub sane: f64,
@@ -99,6 +99,6 @@ impl Tile {
 /// Cuts `grains` grains into tiles: enough for many threads, thick enough that little spills over.
 #[must_use]
 pub fn cut(grains: usize) -> Vec<Range<usize>> {
-    let count = (grains / 600).clamp(1, 96);
+    let count = (grains / 1200).clamp(1, 96);
     (0..count).map(|t| t * grains / count..(t + 1) * grains / count).collect()
 }

@@ -1,22 +1,15 @@
 //! Contacts with plane walls: the law of the pairs against a body of no curvature and infinite mass.
 #![allow(unsafe_code, reason = "indices are checked once per tile, and instructions chosen at run time")]
 
-use super::domain::Domain;
-use super::grains::Grains;
+use super::forces::Scene;
 use super::lanes::{Lanes, cross, dot, minus, plus, scale};
 use super::law::{Contact, ContactLaw};
 use super::tile::{GROUP, Tile};
 
 /// Adds what the walls do to the grains near them.
 #[inline(always)]
-pub fn compute<C: ContactLaw, L: Lanes>(
-    proof: L::Proof,
-    law: &C,
-    domain: &Domain,
-    grains: &Grains,
-    tile: &mut Tile,
-    dt: f64,
-) {
+pub fn compute<C: ContactLaw, L: Lanes>(proof: L::Proof, scene: Scene<'_, C>, tile: &mut Tile) {
+    let Scene { law, domain, grains, dt } = scene;
     let all = |x| L::splat(proof, x);
     let (zero, one) = (all(0.0), all(1.0));
     for (wall, range) in domain.walls.iter().zip(tile.walls.ranges.clone()) {
@@ -72,8 +65,9 @@ pub fn compute<C: ContactLaw, L: Lanes>(
                 }
                 for l in (0..used).filter(|l| bits >> l & 1 == 1) {
                     let to = &mut tile.loads[tile.walls.grains[at + l] as usize - tile.grains.start].0;
-                    for k in 0..6 {
-                        to[k] += loads[k][l];
+                    for k in 0..3 {
+                        to[0].0[k] += loads[k][l];
+                        to[1].0[k] += loads[k + 3][l];
                     }
                 }
                 tile.found.wall_contacts += bits.count_ones() as usize;

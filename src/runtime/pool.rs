@@ -112,12 +112,12 @@ impl Pool {
         }
     }
 
-    /// Calls `job` with each index below `bounds.last()`; thread k takes those from `bounds[k]` to `bounds[k + 1]`.
-    pub fn each(&self, bounds: &[usize], job: impl Fn(usize) + Sync) {
+    /// Calls `job` with the thread and each index below `bounds.last()`; thread k takes those from `bounds[k]` to `bounds[k + 1]`.
+    pub fn each(&self, bounds: &[usize], job: impl Fn(usize, usize) + Sync) {
         self.run(&|thread| {
             let from = bounds.get(thread).copied().unwrap_or_default();
             for index in from..bounds.get(thread + 1).copied().unwrap_or(from) {
-                job(index);
+                job(thread, index);
             }
         });
     }
@@ -218,7 +218,7 @@ mod tests {
             for _ in 0..2000 {
                 let parts = Parts::new(&mut numbers);
                 // SAFETY: each index is one part of its own.
-                pool.each(&bounds, |i| unsafe { parts.part(i..i + 1)[0] += i });
+                pool.each(&bounds, |_, i| unsafe { parts.part(i..i + 1)[0] += i });
             }
             assert!(numbers.iter().enumerate().all(|(i, &n)| n == 2000 * i), "{threads}");
         }

@@ -4,7 +4,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Load, Pair, Row};
+use super::{Lanes, Load, Pair, Quad, Row};
 
 /// Evidence that the machine has AVX2: nothing else makes one, and without it there is no [`Four`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +15,10 @@ impl Proof {
     #[must_use]
     pub fn new() -> Option<Self> {
         std::arch::is_x86_feature_detected!("avx2").then_some(Self(()))
+    }
+
+    pub(super) fn of_wider() -> Self {
+        Self(())
     }
 }
 
@@ -202,20 +206,63 @@ impl Lanes for Four {
     unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], first: u32, pairs: *const Pair, count: usize) {
         // SAFETY: the caller has four pairs whose indices minus `first` are inside the loads, which are aligned.
         unsafe {
-            let flip = _mm256_set_pd(0.0, -0.0, -0.0, -0.0);
-            let low = transpose([force[0].0, force[1].0, force[2].0, spin[0].0]);
+            let flip = _mm256_set1_pd(-0.0);
             let zero = _mm256_setzero_pd();
-            let high = transpose([spin[1].0, spin[2].0, zero, zero]);
+            let low = transpose([force[0].0, force[1].0, force[2].0, zero]);
+            let high = transpose([spin[0].0, spin[1].0, spin[2].0, zero]);
             for l in 0..count {
                 let Pair { i, j } = *pairs.add(l);
                 let to: *mut f64 = loads.as_mut_ptr().add((i - first) as usize).cast();
                 _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), _mm256_xor_pd(low[l], flip)));
-                let high_128 = _mm256_castpd256_pd128(high[l]);
-                _mm_store_pd(to.add(4), _mm_add_pd(_mm_load_pd(to.add(4)), high_128));
+                _mm256_store_pd(to.add(4), _mm256_add_pd(_mm256_load_pd(to.add(4)), high[l]));
                 let to: *mut f64 = loads.as_mut_ptr().add((j - first) as usize).cast();
                 _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), low[l]));
-                _mm_store_pd(to.add(4), _mm_add_pd(_mm_load_pd(to.add(4)), high_128));
+                _mm256_store_pd(to.add(4), _mm256_add_pd(_mm256_load_pd(to.add(4)), high[l]));
             }
         }
+    }
+}
+
+impl Quad for Four {
+    type Proof = Proof;
+
+    #[inline(always)]
+    fn of(_: Proof, row: &Row) -> Self {
+        // SAFETY: the proof; a row is aligned.
+        Self(unsafe { _mm256_load_pd(row.0.as_ptr()) })
+    }
+    #[inline(always)]
+    fn row(self) -> Row {
+        let mut row = Row::default();
+        // SAFETY: a `Four` exists only where AVX2 does; a row is aligned.
+        unsafe { _mm256_store_pd(row.0.as_mut_ptr(), self.0) };
+        row
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        self - other
+    }
+    #[inline(always)]
+    fn by(self, other: Self) -> Self {
+        self * other
+    }
+    #[inline(always)]
+    fn times(self, factor: f64) -> Self {
+        // SAFETY: as above.
+        self * Self(unsafe { _mm256_set1_pd(factor) })
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_max_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn with_last(self, other: Self) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { _mm256_blend_pd::<0b1000>(self.0, other.0) })
     }
 }

@@ -11,12 +11,19 @@ use super::{Lanes, Load, Pair, Row};
 pub struct Proof(());
 
 impl Proof {
+    /// It asks for AVX2, too.
+    #[must_use]
+    pub fn narrower(self) -> super::avx2::Proof {
+        super::avx2::Proof::of_wider()
+    }
+
     /// Asks the machine.
     #[must_use]
     pub fn new() -> Option<Self> {
         let has = std::arch::is_x86_feature_detected!("avx512f")
             && std::arch::is_x86_feature_detected!("avx512dq")
-            && std::arch::is_x86_feature_detected!("avx512vl");
+            && std::arch::is_x86_feature_detected!("avx512vl")
+            && std::arch::is_x86_feature_detected!("avx2");
         has.then_some(Self(()))
     }
 }
@@ -207,10 +214,10 @@ impl Lanes for Eight {
     unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], first: u32, pairs: *const Pair, count: usize) {
         // SAFETY: the caller has eight pairs whose indices minus `first` are inside the loads, which are aligned.
         unsafe {
-            let flip = _mm512_setr_pd(-0.0, -0.0, -0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
+            let flip = _mm512_setr_pd(-0.0, -0.0, -0.0, -0.0, 0.0, 0.0, 0.0, 0.0);
             let zero = _mm512_setzero_pd();
-            let low = sides([force[0].0, force[1].0, force[2].0, spin[0].0]);
-            let high = sides([spin[1].0, spin[2].0, zero, zero]);
+            let low = sides([force[0].0, force[1].0, force[2].0, zero]);
+            let high = sides([spin[0].0, spin[1].0, spin[2].0, zero]);
             let whole: [__m512d; 8] = std::array::from_fn(|l| {
                 if l < 4 {
                     _mm512_shuffle_f64x2::<0x44>(low[l], high[l])

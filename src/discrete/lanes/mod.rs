@@ -17,10 +17,33 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 #[repr(C, align(32))]
 pub struct Row(pub [f64; 4]);
 
-/// What acts on one grain: force [N] in 0..3, torque over radius [N] in 3..6.
+/// One row in a register.
+pub trait Quad: Copy {
+    /// Evidence that the machine has the instructions.
+    type Proof: Copy;
+
+    /// From memory.
+    fn of(proof: Self::Proof, row: &Row) -> Self;
+    /// To memory.
+    fn row(self) -> Row;
+    /// The sum, number by number.
+    fn plus(self, other: Self) -> Self;
+    /// The difference, number by number.
+    fn minus(self, other: Self) -> Self;
+    /// The product, number by number.
+    fn by(self, other: Self) -> Self;
+    /// The row times a number.
+    fn times(self, factor: f64) -> Self;
+    /// The larger, number by number, of numbers that are none NaN.
+    fn max(self, other: Self) -> Self;
+    /// The first three numbers and the last of `other`.
+    fn with_last(self, other: Self) -> Self;
+}
+
+/// What acts on one grain: force [N], and torque over radius [N]; the last numbers are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(64))]
-pub struct Load(pub [f64; 8]);
+pub struct Load(pub [Row; 2]);
 
 /// One number of each of [`Lanes::WIDTH`] contacts.
 pub trait Lanes:

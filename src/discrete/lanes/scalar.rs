@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Load, Pair, Row};
+use super::{Lanes, Load, Pair, Quad, Row};
 
 /// One number.
 #[derive(Clone, Copy, Debug)]
@@ -132,14 +132,51 @@ impl Lanes for One {
             let Pair { i, j } = pairs.read();
             let to = &mut loads.get_unchecked_mut((i - first) as usize).0;
             for k in 0..3 {
-                to[k] -= force[k].0;
-                to[k + 3] += spin[k].0;
+                to[0].0[k] -= force[k].0;
+                to[1].0[k] += spin[k].0;
             }
             let to = &mut loads.get_unchecked_mut((j - first) as usize).0;
             for k in 0..3 {
-                to[k] += force[k].0;
-                to[k + 3] += spin[k].0;
+                to[0].0[k] += force[k].0;
+                to[1].0[k] += spin[k].0;
             }
         }
+    }
+}
+
+impl Quad for Row {
+    type Proof = ();
+
+    #[inline(always)]
+    fn of((): (), row: &Row) -> Self {
+        *row
+    }
+    #[inline(always)]
+    fn row(self) -> Row {
+        self
+    }
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] + other.0[k]))
+    }
+    #[inline(always)]
+    fn minus(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] - other.0[k]))
+    }
+    #[inline(always)]
+    fn by(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] * other.0[k]))
+    }
+    #[inline(always)]
+    fn times(self, factor: f64) -> Self {
+        Self(std::array::from_fn(|k| self.0[k] * factor))
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        Self(std::array::from_fn(|k| if self.0[k] > other.0[k] { self.0[k] } else { other.0[k] }))
+    }
+    #[inline(always)]
+    fn with_last(self, other: Self) -> Self {
+        Self([self.0[0], self.0[1], self.0[2], other.0[3]])
     }
 }
