@@ -1,8 +1,9 @@
 //! From a problem to an outcome: the one entry point that the command line and every study call.
 
-use crate::closures::{Info, drag::carman_kozeny, friction, mixing_length, wall};
+use crate::closures::{Info, contact::linear_spring, drag::carman_kozeny, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::laminar;
+use crate::discrete::{bed as grain_bed, impact};
 use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
 
@@ -22,6 +23,8 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::LogLaw(wall) => log_law::run(wall, problem.cells, watch),
         Model::Laminar(bed) => laminar::run(bed, problem.cells, watch),
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
+        Model::Grains(bed) => grain_bed::run(bed, watch),
+        Model::Impact(one) => impact::run(one, watch),
     };
     outcome?.trusted(LARGEST_IMBALANCE)
 }
@@ -36,6 +39,8 @@ pub fn equations(problem: &Problem) -> String {
         Model::LogLaw(wall) => log_law::equations(wall),
         Model::Laminar(bed) => laminar::equations(bed),
         Model::Bingham(plane) => laminar::bingham_equations(plane),
+        Model::Grains(bed) => grain_bed::equations(bed),
+        Model::Impact(one) => impact::equations(one),
     }
 }
 
@@ -50,6 +55,7 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
+        Model::Grains(_) | Model::Impact(_) => vec![&linear_spring::INFO],
         Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
         Model::LogLaw(_) => vec![&mixing_length::prandtl::INFO, &wall::rough::INFO],
     }

@@ -205,6 +205,18 @@ pub enum Fault {
         /// as given
         value: f64,
     },
+    /// A number of grains, or a room for them, that no run could hold.
+    #[error("{name} is {value:.6}, which is not from {least:.6} to {most:.6}")]
+    GrainRoom {
+        /// what it is
+        name: &'static str,
+        /// as it follows from the case
+        value: f64,
+        /// smallest value
+        least: f64,
+        /// largest value
+        most: f64,
+    },
     /// A regularisation without a size, with two, or a size without a law.
     #[error("{}", match (*given, *exact) { (0, _) => "the regularisation has no size", (_, true) => "the exact yield (law = \"none\") has no size", _ => "the regularisation has two sizes" })]
     RegularisationSize {
@@ -283,6 +295,7 @@ impl Fault {
             Self::ThinnerThanAGrain { .. } => "thinner-than-a-grain",
             Self::FrictionFalls { .. } => "friction-falls",
             Self::TooSteep { .. } => "too-steep",
+            Self::GrainRoom { .. } => "grain-room",
             Self::RegularisationSize { .. } => "regularisation-size",
             Self::LawMismatch { .. } => "law-mismatch",
             Self::RoughnessAboveFlow { .. } => "roughness-above-flow",

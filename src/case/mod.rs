@@ -10,6 +10,7 @@ pub mod checks;
 mod diagnose;
 mod document;
 mod fault;
+pub mod grain_tables;
 mod load;
 mod reference;
 mod render;

@@ -327,6 +327,17 @@ impl<C: ContactLaw> Engine<C> {
         super::error::Place { grain: self.grains.ids[i], step: self.step, position: self.grains.position(i) }
     }
 
+    /// Goes on with another step or gravity; the skin stays.
+    pub fn change(&mut self, dt: f64, gravity: Point) {
+        self.settings.dt = dt;
+        self.settings.gravity = gravity;
+    }
+
+    /// The account of energies begins again now.
+    pub fn begin_ledger(&mut self) {
+        self.ledger.begin(self.grains.kinetic_energy());
+    }
+
     /// The grains, in the order of the list.
     #[must_use]
     pub fn grains(&self) -> &Grains {

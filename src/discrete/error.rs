@@ -1,6 +1,7 @@
 //! Why a step of the grains cannot be taken: with the grain, the step and the place.
 
 use super::grains::Point;
+use crate::result::{Failure, SolveError};
 
 /// Where and when something went wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +80,26 @@ pub enum GrainError {
         /// most that can be
         limit: usize,
     },
+}
+
+impl From<GrainError> for SolveError {
+    fn from(error: GrainError) -> Self {
+        let (code, hint) = match error {
+            GrainError::Overlap { .. } => ("overlap", "stiffer contacts (closures.contact.k_n) or slower grains"),
+            GrainError::NotFinite { .. } => ("not-finite", "a shorter time step, or values nearer to those of grains"),
+            GrainError::Lost { .. } => ("grain-lost", "a bottom without gaps: bed.bottom = \"plane\" or more layers of fixed grains"),
+            GrainError::StepTooLong { .. } => ("step-too-long", "a shorter discrete.time_step, or discrete.force_time_step = true"),
+            GrainError::PeriodTooShort { .. } => ("period-too-short", "a longer flow.length or flow.width"),
+            GrainError::Count { .. } => ("grain-count", "another number of bed.layers, flow.length or flow.width"),
+        };
+        Self::Grains { code, message: error.to_string(), hint }
+    }
+}
+
+impl From<GrainError> for Failure {
+    fn from(error: GrainError) -> Self {
+        SolveError::from(error).into()
+    }
 }
 
 fn partner(other: Option<u32>) -> String {

@@ -1,7 +1,8 @@
 //! The contact law: what two grains that touch do to each other. The pair loop knows only the trait.
 
 use super::lanes::{Lanes, Vector, dot, minus, plus, scale};
-use super::restitution::{self, RestitutionError};
+pub use crate::closures::contact::Tension;
+use crate::closures::contact::restitution::{self, RestitutionError};
 
 /// A contact as the law sees it; the velocities are those of the second grain relative to the first at the contact.
 #[derive(Clone, Copy, Debug)]
@@ -41,15 +42,6 @@ pub trait ContactLaw: Copy + Send + Sync {
     fn damping_ratio(&self) -> f64;
     /// Whether torque and sliding take the lever arm R, as LAMMPS does, instead of the distance to the contact.
     fn full_lever(&self) -> bool;
-}
-
-/// What the dashpot may do while grains part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tension {
-    /// The normal force never pulls.
-    Cut,
-    /// It may pull: the solution of the linear equation up to zero overlap.
-    Kept,
 }
 
 /// Linear spring and dashpot along the normal, linear spring with a Coulomb slider across it (paper 000, section II.A).

@@ -7,20 +7,26 @@
 //!
 //! One binary gives the same bits for any number of threads and any width of vectors; see docs/grains.md.
 
+pub mod average;
+pub mod bed;
 pub mod body;
 pub mod cells;
+pub mod checkpoint;
 pub mod contacts;
 pub mod domain;
 pub mod engine;
 pub mod error;
 pub mod forces;
 pub mod grains;
+pub mod impact;
 pub mod integrate;
 pub mod lanes;
 pub mod law;
 pub mod ledger;
 pub mod neighbours;
-pub mod restitution;
+pub mod outcome;
+pub mod pack;
+pub mod picture;
 pub mod stability;
 pub mod tile;
 pub mod walls;

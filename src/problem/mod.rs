@@ -1,10 +1,12 @@
 //! What is solved: immutable values in SI, checked against each other. After this nothing is out of range and no unit remains.
 
 mod bed;
+mod grains;
 mod others;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
+pub use grains::{GrainBed, Impact};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 
 use crate::case::{Case, CaseError, Fault, Scene};
@@ -21,7 +23,7 @@ pub struct Problem {
     pub kind: &'static str,
     /// what is solved
     pub model: Model,
-    /// number of levels of the profile
+    /// number of levels of the profile, or of mobile grains
     pub cells: usize,
 }
 
@@ -40,6 +42,10 @@ pub enum Model {
     Laminar(RegularisedBed),
     /// Bingham fluid between two planes, numerically
     Bingham(RegularisedPlane),
+    /// a bed of spheres, grain by grain
+    Grains(GrainBed),
+    /// the impact of one sphere
+    Impact(Impact),
 }
 
 /// Faults found while comparing values with each other, by path.
@@ -87,6 +93,11 @@ impl Problem {
                 (bed::laminar(scene, case.model, &mut faults).map(Model::Laminar), scene.grid.cells)
             }
             Scene::Bingham(scene) => (others::bingham(scene, &mut faults).map(Model::Bingham), scene.grid.cells),
+            Scene::GrainsBed(scene) => {
+                let bed = grains::bed(scene, &mut faults);
+                (bed.map(Model::Grains), bed.map_or(0, |bed| bed.mobile))
+            }
+            Scene::Impact(scene) => (Some(Model::Impact(grains::impact(scene))), 1),
         };
         let mut faults: Vec<(String, Fault)> =
             faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();

@@ -3,3 +3,4 @@
 pub mod cost;
 pub mod interrupt;
 pub mod pool;
+pub mod rng;

@@ -7,7 +7,7 @@
 
 use std::f64::consts::PI;
 
-use super::law::Tension;
+use super::Tension;
 use crate::numerics::root;
 
 /// Why no damping gives a restitution coefficient.
@@ -93,7 +93,7 @@ pub fn damping_ratio(e_n: f64, tension: Tension) -> Result<f64, RestitutionError
 mod tests {
     use super::*;
 
-    /// Values of /reference/dem_lsd: e, ζ kept, t_c kept, e of that ζ if cut, ζ cut, t_c cut.
+    /// e, ζ kept, t_c kept, e of that ζ if cut, ζ cut, t_c cut.
     const TABLE: [[f64; 6]; 5] = [
         [0.9, 0.033518, 3.14336, 0.90203, 0.034265, 3.07485],
         [0.8, 0.070850, 3.14951, 0.80810, 0.074355, 3.00105],
