@@ -8,7 +8,7 @@ use std::fs;
 use std::time::Instant;
 
 use bedload::discrete::body::{Body, Pushed, Seen};
-use bedload::discrete::law::Lammps;
+use bedload::discrete::law::{Discrete, Lammps};
 use bedload::discrete::{Domain, Engine, Grain, LinearSpring, Point, Settings, Tension};
 
 const D: f64 = 6e-3;
@@ -44,15 +44,14 @@ fn bed(file: &str, copies: usize) -> Vec<Grain> {
     grains
 }
 
-fn engine(grains: &[Grain], copies: usize, threads: usize) -> Engine<LinearSpring> {
+fn engine(grains: &[Grain], copies: usize, threads: usize, own: bool) -> Engine<LinearSpring> {
     let mass = grains[0].mass();
     // LAMMPS damps with gamma_n times the reduced mass: zeta = gamma sqrt(m/(2 k_n))/2 for the pair.
     let zeta = 0.5 * GAMMA * (0.5 * mass / 5e3).sqrt();
-    let lammps = Some(Lammps { inverse_mass: 2.0 / mass });
-    let law = LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, zeta, tension: Tension::Kept, lammps };
+    let lammps = (!own).then(|| Lammps { inverse_mass: 2.0 / mass });
+    let law = LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, zeta, tension: Tension::Kept, lammps, discrete: Discrete::default() };
     let domain = Domain { periods: [Some(copies as f64 * LENGTH[0]), Some(LENGTH[1])], walls: Vec::new() };
-    let mut settings = Settings::new(1.8e-5, [0.0, 0.0, -9.81], D);
-    if let Some(x) = std::env::var("SKIN").ok().and_then(|x| x.parse::<f64>().ok()) { settings.skin = x * D; }
+    let settings = Settings::new(1.8e-5, [0.0, 0.0, -9.81], D);
     Engine::new(grains, domain, law, settings, threads).unwrap()
 }
 
@@ -94,7 +93,7 @@ fn speed(options: &Options) {
     let count = options.number("steps", 3000);
     let grains = bed(&options.text("bed", "../shared/reference/bed_10046_spheres.csv"), copies);
     let mobile = grains.iter().filter(|g| !g.fixed).count();
-    let mut engine = engine(&grains, copies, threads);
+    let mut engine = engine(&grains, copies, threads, options.text("law", "lammps") == "own");
     engine.half_step(&PUSHED).unwrap();
     steps(&mut engine, &PUSHED, options.number("warm", 300));
     let (wall, cpu, lists) = (Instant::now(), cpu_seconds(), engine.rebuilds());
@@ -127,7 +126,7 @@ fn scaling(options: &Options) {
             let length = part * copies as f64;
             let mass = grains[0].mass();
             let zeta = 0.5 * GAMMA * (0.5 * mass / 5e3).sqrt();
-            let law = LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, zeta, tension: Tension::Kept, lammps: None };
+            let law = LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, zeta, tension: Tension::Kept, lammps: None, discrete: Discrete::default() };
             let domain = Domain { periods: [Some(length * LENGTH[0]), Some(LENGTH[1])], walls: Vec::new() };
             let settings = Settings { largest_overlap: 0.5, ..Settings::new(1.8e-5, [0.0, 0.0, -9.81], D) };
             let mut engine = Engine::new(&grains, domain, law, settings, threads).unwrap();
@@ -149,7 +148,7 @@ fn scaling(options: &Options) {
 fn trajectory(options: &Options) {
     let copies = options.number("copies", 1);
     let grains = bed(&options.text("bed", "../shared/reference/bed_10046_spheres.csv"), copies);
-    let mut engine = engine(&grains, copies, options.number("threads", 1));
+    let mut engine = engine(&grains, copies, options.number("threads", 1), false);
     engine.half_step(&Region).unwrap();
     steps(&mut engine, &Region, options.number("steps", 300) - 1);
     let listed = engine.grains().listed();

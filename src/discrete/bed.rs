@@ -56,6 +56,14 @@ fn name(bed: &GrainBed) -> [u8; 32] {
     Sha256::digest(format!("{bed:?}").as_bytes()).into()
 }
 
+/// Whether `bytes` are a checkpoint of `bed`, whole and sound as far as its frame.
+///
+/// # Errors
+/// Why not.
+pub fn accepts(bed: &GrainBed, bytes: &[u8]) -> Result<(), super::checkpoint::CheckpointError> {
+    Reader::open(bytes, &name(bed)).map(drop)
+}
+
 /// Threads: what the system offers, since they change no bit.
 fn threads() -> usize {
     crate::runtime::pool::wanted()

@@ -125,17 +125,9 @@ impl Cells {
 fn around(at: usize, count: usize, periodic: bool) -> ([usize; 3], usize) {
     let mut found = [0; 3];
     let mut n = 0;
-    for step in [count - 1, 0, 1] {
-        let other = if periodic {
-            (at + step) % count
-        } else {
-            match step {
-                0 => at,
-                1 if at + 1 < count => at + 1,
-                _ if step != 1 && at > 0 => at - 1,
-                _ => continue,
-            }
-        };
+    let (last, below, above) = (count - 1, at.checked_sub(1), (at + 1 < count).then_some(at + 1));
+    let (below, above) = if periodic { (below.or(Some(last)), above.or(Some(0))) } else { (below, above) };
+    for other in [below, Some(at), above].into_iter().flatten() {
         if !found[..n].contains(&other) {
             found[n] = other;
             n += 1;

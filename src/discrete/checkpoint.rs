@@ -210,7 +210,9 @@ impl<C: ContactLaw> Engine<C> {
         to.whole(self.step);
         to.number(self.way);
         let Settings { dt, gravity, skin, largest_overlap, lowest } = self.settings;
-        [dt, gravity[0], gravity[1], gravity[2], skin, largest_overlap, lowest].map(|x| to.number(x));
+        for x in [dt, gravity[0], gravity[1], gravity[2], skin, largest_overlap, lowest] {
+            to.number(x);
+        }
         let count = self.grains.len();
         to.words(self.grains.ids.iter().map(|&id| u64::from(id)));
         for rows in [&self.grains.positions, &self.grains.velocities, &self.grains.spins] {

@@ -98,6 +98,7 @@ impl<C: ContactLaw> Engine<C> {
 
     /// Grains without a list.
     pub(super) fn bare(grains: Grains, domain: Domain, law: C, settings: Settings, threads: usize) -> Self {
+        let law = law.for_step(settings.dt, grains.inverse_masses());
         let pool = Pool::new(threads);
         let scratch = vec![Touching::default(); pool.threads()];
         Self {
@@ -330,6 +331,7 @@ impl<C: ContactLaw> Engine<C> {
     /// Goes on with another step or gravity; the skin stays.
     pub fn change(&mut self, dt: f64, gravity: Point) {
         self.settings.dt = dt;
+        self.law = self.law.for_step(dt, self.grains.inverse_masses());
         self.settings.gravity = gravity;
     }
 

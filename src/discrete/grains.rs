@@ -143,6 +143,13 @@ impl Grains {
         (0..self.len()).fold(0.0, |r, i| self.radius(i).max(r))
     }
 
+    /// Least and largest inverse mass of the mobile grains [1/kg], if there are any.
+    #[must_use]
+    pub fn inverse_masses(&self) -> Option<[f64; 2]> {
+        let mobile = (0..self.len()).map(|i| self.spins[i].0[3]).filter(|&inverse| inverse > 0.0);
+        mobile.fold(None, |ends, x| Some(ends.map_or([x, x], |[low, high]: [f64; 2]| [low.min(x), high.max(x)])))
+    }
+
     /// Place of each grain of the scene in the present order.
     #[must_use]
     pub fn places(&self) -> Vec<usize> {

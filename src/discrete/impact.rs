@@ -37,7 +37,7 @@ pub struct Found {
 }
 
 /// Steps after which an impact that does not end is given up.
-const MOST: u64 = 20_000_000;
+const MOST: u64 = 2_000_000;
 
 /// The law of the case.
 ///
@@ -95,29 +95,26 @@ pub fn follow(impact: &Impact) -> Result<Found, SolveError> {
     }
     let mut engine = Engine::new(&grains, domain, law, settings, 1)?;
     let before = engine.grains().kinetic_energy();
-    let (mut first, mut last) = (None, 0);
+    let (mut met, mut pushed) = (false, 0_u64);
     while engine.steps() < MOST {
-        engine.step(&Nothing)?;
-        let found = engine.found();
-        let touching = found.contacts + found.wall_contacts > 0;
         // With the tension cut the force ends before the overlap does.
-        let pulls = touching && engine.contacts().any(|c| (0..3).map(|k| c.force[k] * c.normal[k]).sum::<f64>() != 0.0);
-        if touching {
-            first.get_or_insert(engine.steps());
-            if pulls || impact.contact.tension == Tension::Kept {
-                last = engine.steps();
-            }
-        } else if first.is_some() {
+        let pushes = engine.contacts().any(|c| (0..3).map(|k| c.force[k] * c.normal[k]).sum::<f64>() > 0.0);
+        let touches = engine.contacts().next().is_some();
+        if met && !touches {
             break;
         }
+        let counts = if impact.contact.tension == Tension::Kept { touches } else { pushes };
+        pushed += u64::from(counts);
+        met |= touches;
+        engine.step(&Nothing)?;
     }
-    let Some(first) = first.filter(|_| engine.steps() < MOST) else {
+    if engine.steps() >= MOST {
         return Err(SolveError::Grains {
             code: "no-parting",
             message: format!("the grain has not left its target after {MOST} steps"),
             hint: "a larger restitution coefficient (closures.contact.e_n) or fewer discrete.steps_per_contact",
         });
-    };
+    }
     let all = engine.grains();
     let place = all.places();
     let mover = place[grains.len() - 1];
@@ -135,7 +132,7 @@ pub fn follow(impact: &Impact) -> Result<Found, SolveError> {
     Ok(Found {
         dt,
         restitution,
-        duration: (last + 1 - first) as f64 * dt,
+        duration: pushed as f64 * dt,
         expected_duration,
         tangential: after[0] - other[0],
         spin: all.spin(mover)[1],

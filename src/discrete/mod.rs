@@ -36,3 +36,6 @@ pub use engine::{Engine, Settings};
 pub use error::GrainError;
 pub use grains::{Grain, Grains, Point};
 pub use law::{ContactLaw, LinearSpring, Tension};
+
+#[cfg(test)]
+mod tests;

@@ -8,7 +8,15 @@ use super::comparison;
 use crate::result::{Status, Summary};
 
 /// Files that a run folder may hold; anything else in it is not ours.
-const OURS: &[&str] = &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES];
+const OURS: &[&str] = &[
+    "summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES, CHECKPOINT, "grains.csv",
+];
+/// State from which a run of grains goes on.
+pub const CHECKPOINT: &str = "checkpoint.bin";
+/// Pictures of the grains for ParaView.
+fn is_frame(name: &str) -> bool {
+    name.strip_prefix("grains_").and_then(|n| n.strip_suffix(".vtp")).is_some_and(|n| n.parse::<u64>().is_ok())
+}
 /// The one folder in it, of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
 
@@ -234,6 +242,18 @@ impl Folder {
         write_whole(&self.place.join(name), content)
     }
 
+    /// Writes the checkpoint of a run that goes on from another one beside that one, too: it may be stopped before it
+    /// takes its place.
+    ///
+    /// # Errors
+    /// [`OutputError::Interrupted`] with the file.
+    pub fn write_checkpoint(&self, bytes: &[u8], going_on: bool) -> Result<(), OutputError> {
+        if going_on && self.place != self.target {
+            write_whole(&self.target.join(CHECKPOINT), |to| to.write_all(bytes))?;
+        }
+        self.write(CHECKPOINT, |to| to.write_all(bytes))
+    }
+
     /// Puts the run in its place.
     ///
     /// # Errors
@@ -331,7 +351,7 @@ pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError
     let partial = |name: &str| name.starts_with('.') && name.contains(".part-");
     let foreign = |entry: String| Err(OutputError::Foreign { folder: folder.into(), entry });
     for (name, is_folder) in entries(folder).map_err(unwritable)? {
-        if is_folder != (name == FIGURES) || !(ours.contains(&name.as_str()) || partial(&name)) {
+        if is_folder != (name == FIGURES) || !(ours.contains(&name.as_str()) || partial(&name) || is_frame(&name)) {
             return foreign(name);
         }
     }

@@ -5,5 +5,5 @@ mod folder;
 mod run;
 
 pub use comparison::{prepare_comparison, write_comparison};
-pub use folder::{Folder, Mode, OutputError};
+pub use folder::{CHECKPOINT, Folder, Mode, OutputError};
 pub use run::{Written, read_run, redraw, write_failure, write_outcome, write_running};

@@ -242,7 +242,9 @@ mod tests {
         let pool = Pool::new(2);
         thread::sleep(std::time::Duration::from_millis(100));
         let hits = AtomicUsize::new(0);
-        pool.run(&|_| drop(hits.fetch_add(1, Ordering::SeqCst)));
+        pool.run(&|_| {
+            hits.fetch_add(1, Ordering::SeqCst);
+        });
         assert_eq!(hits.load(Ordering::SeqCst), 2);
         let broken = panic::catch_unwind(AssertUnwindSafe(|| pool.run(&|k| assert!(k == 0, "worker {k}"))));
         assert!(broken.is_err());
