@@ -49,7 +49,15 @@ fn engine(grains: &[Grain], copies: usize, threads: usize, own: bool) -> Engine<
     // LAMMPS damps with gamma_n times the reduced mass: zeta = gamma sqrt(m/(2 k_n))/2 for the pair.
     let zeta = 0.5 * GAMMA * (0.5 * mass / 5e3).sqrt();
     let lammps = (!own).then(|| Lammps { inverse_mass: 2.0 / mass });
-    let law = LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, zeta, tension: Tension::Kept, lammps, discrete: Discrete::default() };
+    let law = LinearSpring {
+        k_n: 5e3,
+        k_s: 2.5e3,
+        mu: 0.4,
+        zeta,
+        tension: Tension::Kept,
+        lammps,
+        discrete: Discrete::default(),
+    };
     let domain = Domain { periods: [Some(copies as f64 * LENGTH[0]), Some(LENGTH[1])], walls: Vec::new() };
     let settings = Settings::new(1.8e-5, [0.0, 0.0, -9.81], D);
     Engine::new(grains, domain, law, settings, threads).unwrap()
@@ -126,7 +134,15 @@ fn scaling(options: &Options) {
             let length = part * copies as f64;
             let mass = grains[0].mass();
             let zeta = 0.5 * GAMMA * (0.5 * mass / 5e3).sqrt();
-            let law = LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, zeta, tension: Tension::Kept, lammps: None, discrete: Discrete::default() };
+            let law = LinearSpring {
+                k_n: 5e3,
+                k_s: 2.5e3,
+                mu: 0.4,
+                zeta,
+                tension: Tension::Kept,
+                lammps: None,
+                discrete: Discrete::default(),
+            };
             let domain = Domain { periods: [Some(length * LENGTH[0]), Some(LENGTH[1])], walls: Vec::new() };
             let settings = Settings { largest_overlap: 0.5, ..Settings::new(1.8e-5, [0.0, 0.0, -9.81], D) };
             let mut engine = Engine::new(&grains, domain, law, settings, threads).unwrap();

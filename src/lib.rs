@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  cases/*.toml ─► case ─► problem ─► closures ─► continuum ─► result ─► output, plot
-//!    (text)      (spans)  (SI, checked)  (laws)                      ─► validate
+//!    (text)      (spans)  (SI, checked)  (laws)                      ─► study, validate: call it many times
 //! ```
 //!
 //! The drawing shows the data. Imports go only upward in this list, and a test holds every `use crate::` against it:
@@ -18,7 +18,8 @@
 //! | `run` | [`run()`]: the one entry point |
 //! | [`plot`] | figures and pages |
 //! | [`compare`] | several runs and measured profiles side by side |
-//! | [`output`] | the folder of a run, of a comparison |
+//! | [`output`] | the folder of a run, of a comparison, of a study |
+//! | [`study`] | one case at many points, in parallel: `converge`, `sweep` |
 //! | [`validate`] | re-runs what the cases claim |
 //! | [`cli`] | the command line, one file per verb |
 //!
@@ -45,6 +46,7 @@ pub mod problem;
 pub mod result;
 mod run;
 pub mod runtime;
+pub mod study;
 pub mod units;
 pub mod validate;
 

@@ -1,6 +1,7 @@
 //! From a problem to an outcome: the one entry point that the command line and every study call.
 
-use crate::closures::{Info, contact::linear_spring, drag::carman_kozeny, friction, mixing_length, wall};
+use crate::closures::{Info, contact::linear_spring, dilatancy::phi_iv, drag::carman_kozeny};
+use crate::closures::{friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::laminar;
 use crate::discrete::{bed as grain_bed, impact};
@@ -52,6 +53,7 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             let friction = if bed.rise.is_some() { &friction::mu_iv::INFO } else { &friction::coulomb::INFO };
             let mut laws = vec![friction, bed.viscosity.info()];
             laws.extend(bed.drag.map(|_| &carman_kozeny::INFO));
+            laws.extend(bed.dilatancy.map(|_| &phi_iv::INFO));
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),

@@ -24,6 +24,7 @@ pub static CASES: &[(&str, &str)] = shipped![
     "impact_2d_oblique",
     "impact_2d_spinning",
     "laminar_1d_aussillous",
+    "laminar_1d_muiv",
     "laminar_1d_ouriemi",
 ];
 

@@ -6,6 +6,7 @@
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
+use crate::closures::dilatancy::Dilatancy;
 use crate::closures::drag::Drag;
 use crate::closures::friction::Friction;
 use crate::closures::mixing_length::MixingLength;
@@ -313,6 +314,9 @@ pub struct BedClosures {
     /// Drag between the phases; only the two-fluid form has it.
     #[serde(default)]
     pub drag: Drag,
+    /// Solid fraction of sheared grains; only with friction by mu(I_v).
+    #[serde(default)]
+    pub dilatancy: Dilatancy,
 }
 
 /// Laws of the granular film.

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::progress::Progress;
-use super::{CliError, answer, say};
+use super::{CliError, answer, say, word};
 use crate::case::Case;
 use crate::compare::{Align, CompareError, Comparison, NormRow, Request, Subject, compare, data, percent};
 use crate::output::{prepare_comparison, read_run, write_comparison};
@@ -145,11 +145,9 @@ impl Compare {
 
     /// The command that makes this comparison, with something added to it.
     fn command(&self, added: &str) -> String {
-        let plain = |s: &str| !s.is_empty() && s.chars().all(|c| c.is_alphanumeric() || "/._-+,:=".contains(c));
-        let quoted = |s: &String| if plain(s) { s.clone() } else { format!("'{}'", s.replace('\'', "'\\''")) };
         let mut words = vec!["bedload compare".to_owned()];
-        words.extend(self.subjects.iter().map(quoted));
-        words.extend(self.data.iter().map(|d| format!("--data {}", quoted(d))));
+        words.extend(self.subjects.iter().map(|s| word(s)));
+        words.extend(self.data.iter().map(|d| format!("--data {}", word(d))));
         if let (Datum::Bed | Datum::None, Some(value)) = (self.align, self.align.to_possible_value()) {
             words.push(format!("--align {}", value.get_name()));
         }

@@ -3,6 +3,7 @@
 mod check;
 mod compare;
 mod completions;
+mod converge;
 mod explain;
 mod list;
 mod new;
@@ -10,6 +11,8 @@ mod progress;
 mod report;
 mod run;
 mod schema;
+mod study;
+mod sweep;
 mod validate;
 
 use std::io::{self, IsTerminal, Write};
@@ -24,6 +27,7 @@ use crate::output::OutputError;
 use crate::problem::Problem;
 use crate::result::ErrorReport;
 use crate::runtime::interrupt::STOPPED;
+use crate::study::StudyError;
 use crate::validate::ValidateError;
 
 /// Sediment transport from several models of the same flow, with what each one costs and how far it can be trusted.
@@ -52,6 +56,10 @@ enum Verb {
     Report(report::Report),
     /// Set cases, runs and measured profiles side by side
     Compare(compare::Compare),
+    /// Show how fast the error of a case falls with its regularisation or its mesh
+    Converge(converge::Converge),
+    /// Run a case over values of one key, or a grid of several
+    Sweep(sweep::Sweep),
     /// Re-run what the cases claim and write the table
     Validate(validate::Validate),
     /// Print the JSON Schema of case files, for editors
@@ -92,6 +100,8 @@ enum CliError {
     Output(OutputError),
     /// the subjects cannot be compared: 2
     Compare(CompareError),
+    /// the study cannot be made: 2
+    Study(StudyError),
     /// the method failed, the folder says how: 3. The answer for `--json`
     Failed(ErrorReport, Option<Value>),
     /// some rows of a validation are red: 3
@@ -115,6 +125,16 @@ impl From<CaseError> for CliError {
 impl From<CompareError> for CliError {
     fn from(error: CompareError) -> Self {
         Self::Compare(error)
+    }
+}
+
+impl From<StudyError> for CliError {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Case(error) => Self::Case(error),
+            StudyError::Output(error) => Self::Output(error),
+            other => Self::Study(other),
+        }
     }
 }
 
@@ -157,6 +177,8 @@ pub fn execute() -> ExitCode {
         Verb::List(verb) => verb.json,
         Verb::Report(verb) => verb.json,
         Verb::Compare(verb) => verb.json,
+        Verb::Converge(verb) => verb.study.json,
+        Verb::Sweep(verb) => verb.study.json,
         Verb::Validate(verb) => verb.json,
         Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
     };
@@ -168,6 +190,8 @@ pub fn execute() -> ExitCode {
         Verb::List(verb) => verb.execute(),
         Verb::Report(verb) => verb.execute(),
         Verb::Compare(verb) => verb.execute(),
+        Verb::Converge(verb) => verb.execute(),
+        Verb::Sweep(verb) => verb.execute(),
         Verb::Validate(verb) => verb.execute(),
         Verb::Schema(verb) => verb.execute(),
         Verb::Completions(verb) => verb.execute(),
@@ -195,7 +219,7 @@ impl CliError {
 
     fn exit_code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Compare(_) | Self::Usage { .. } => 2,
+            Self::Case(_) | Self::Compare(_) | Self::Study(_) | Self::Usage { .. } => 2,
             Self::Output(error) => {
                 if error.is_refusal() {
                     2
@@ -223,6 +247,7 @@ impl CliError {
             }
             Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
             Self::Compare(error) => one(error.code(), error.to_string(), Some(error.hint())),
+            Self::Study(error) => one(error.code(), error.to_string(), Some(error.hint())),
             Self::Failed(error, summary) => summary.unwrap_or_else(|| json!({ "status": "failed", "error": error })),
             Self::Stopped(summary, _) => summary,
             Self::Usage { message, hint } => one("usage", message, Some(hint)),
@@ -242,6 +267,7 @@ impl CliError {
                 ("stopped".into(), kept.then(|| "the finished run that the folder held is still there".into()))
             }
             Self::Compare(error) => (format!("error: {error}"), Some(error.hint())),
+            Self::Study(error) => (format!("error: {error}"), Some(error.hint())),
             Self::Usage { message, hint, .. } => (format!("error: {message}"), Some(hint)),
             Self::Io(error) => (format!("error: {error}"), None),
             Self::Quiet(_) => return Ok(()),
@@ -249,6 +275,12 @@ impl CliError {
         let hint = hint.map(|hint| format!("  {hint}\n")).unwrap_or_default();
         write!(to, "{}", printable(&format!("{message}\n{hint}")))
     }
+}
+
+/// An argument as a shell takes it back.
+fn word(argument: &str) -> String {
+    let plain = |s: &str| !s.is_empty() && s.chars().all(|c| c.is_alphanumeric() || "/._-+,:=".contains(c));
+    if plain(argument) { argument.to_owned() } else { format!("'{}'", argument.replace('\'', "'\\''")) }
 }
 
 /// Whether standard error takes colour.

@@ -5,6 +5,7 @@
 //! validity, the implementation, and tests of its limits. `docs/adding-a-closure.md` walks through one.
 
 pub mod contact;
+pub mod dilatancy;
 pub mod drag;
 pub mod friction;
 pub mod mixing_length;
@@ -78,6 +79,8 @@ pub static CATALOGUE: &[&Info] = &[
     &mixture_viscosity::clear::INFO,
     &mixture_viscosity::einstein::INFO,
     &mixture_viscosity::boyer::INFO,
+    &dilatancy::none::INFO,
+    &dilatancy::phi_iv::INFO,
     &drag::none::INFO,
     &drag::carman_kozeny::INFO,
     &mixing_length::none::INFO,

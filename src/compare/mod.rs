@@ -21,7 +21,7 @@ pub use data::{DataError, DataFault};
 pub use frame::{Align, Scales, View, scaled_unit};
 pub use norms::{Deviation, Side, Sigmas};
 pub use numbers::NumberRow;
-pub use page::percent;
+pub use page::{origin, percent};
 pub use record::Request;
 
 use crate::plot::{Figure, Trace, shared_figures};

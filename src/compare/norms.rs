@@ -44,6 +44,8 @@ pub struct Deviation {
     pub linf_relative: Option<f64>,
     /// mean of the signed deviation
     pub bias: f64,
+    /// root mean square over the levels, each counting once
+    pub rms: f64,
 }
 
 /// Deviation in units of the standard error of the data.
@@ -72,7 +74,7 @@ pub fn deviation(reference: &Profile, other: &Profile, quantity: &Quantity) -> O
     let levels: Vec<(f64, Option<f64>)> =
         coarse.axis().into_iter().zip(values.iter().copied()).filter(|(z, _)| inside(*z)).collect();
     let weights = weights(&levels.iter().map(|l| l.0).collect::<Vec<_>>());
-    let (mut used, mut total, mut bias, mut square, mut scale) = (0, 0.0, 0.0, 0.0, 0.0);
+    let (mut used, mut total, mut bias, mut square, mut scale, mut plain) = (0_u32, 0.0, 0.0, 0.0, 0.0, 0.0);
     let (mut linf, mut linf_at, mut largest, mut between) = (0.0_f64, low, 0.0_f64, None);
     for (&(z, value), w) in levels.iter().zip(weights) {
         let (Some(here), Some(there)) = (value, interpolated(fine, quantity, z)) else { continue };
@@ -82,6 +84,7 @@ pub fn deviation(reference: &Profile, other: &Profile, quantity: &Quantity) -> O
         total += w;
         bias += w * d;
         square += w * d * d;
+        plain += d * d;
         scale += w * a * a;
         largest = largest.max(a.abs());
         if d.abs() > linf || used == 1 {
@@ -90,7 +93,7 @@ pub fn deviation(reference: &Profile, other: &Profile, quantity: &Quantity) -> O
         between = Some((between.map_or(z, |(first, _)| first), z));
     }
     Some(Deviation {
-        levels: used,
+        levels: used as usize,
         coarser,
         between: between?,
         l2_relative: relative(square.sqrt(), scale.sqrt()),
@@ -98,6 +101,7 @@ pub fn deviation(reference: &Profile, other: &Profile, quantity: &Quantity) -> O
         linf_at,
         linf_relative: relative(linf, largest),
         bias: if total > 0.0 { bias / total } else { 0.0 },
+        rms: (plain / f64::from(used)).sqrt(),
     })
 }
 
@@ -213,6 +217,7 @@ mod tests {
         assert_eq!((d.linf, d.linf_at), (2.0, 1.0));
         assert_relative_eq!(d.linf_relative.unwrap(), 2.0 / 3.0);
         assert_relative_eq!(d.bias, 2.0 / 3.0);
+        assert_relative_eq!(d.rms, (5.0_f64 / 3.0).sqrt());
     }
 
     #[test]

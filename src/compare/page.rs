@@ -172,7 +172,9 @@ impl Comparison {
     }
 }
 
-fn origin(cost: &Cost, provenance: &Provenance) -> Section<'static> {
+/// What several runs cost together, and where they come from.
+#[must_use]
+pub fn origin(cost: &Cost, provenance: &Provenance) -> Section<'static> {
     let memory = cost.peak_memory_mb.map_or_else(String::new, |mb| format!("{mb:.0} MB"));
     let costs = [
         ("solvers", format!("{:.2} ms", 1e3 * cost.solve_s)),

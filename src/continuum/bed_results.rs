@@ -15,8 +15,10 @@ const REST: Range = Range { variable: "yield_level_m/d", min: 1.0, max: f64::INF
 pub(super) struct BedNumbers {
     /// drive
     pub f: f64,
-    /// integral of the grain velocity over the bed
+    /// integral of the solid fraction times the grain velocity over the bed
     pub flux: f64,
+    /// solid fraction just under the bed level
+    pub phi_interface: f64,
     /// integral of the mixture velocity over the height
     pub discharge: f64,
     /// fluid stress at the bed level
@@ -48,7 +50,7 @@ impl BedNumbers {
     /// The reported results, SI.
     pub fn results(&self, bed: &LaminarBed) -> Results {
         let (h, velocity, stress) = (bed.h, bed.velocity_scale(), bed.stress_scale());
-        let rate = bed.phi * self.flux * velocity * h;
+        let rate = self.flux * velocity * h;
         let tau = self.tau * stress;
         let discharge = self.discharge * velocity * h;
         let mut results = Results::default();
@@ -63,7 +65,7 @@ impl BedNumbers {
         results.set(&q::YIELD_LEVEL, self.h_c * h);
         results.set(&q::BED_LEVEL, bed.h_p);
         results.set(&q::FLOW_HEIGHT, h);
-        results.set(&q::PHI_INTERFACE, bed.phi);
+        results.set(&q::PHI_INTERFACE, self.phi_interface);
         results.set(&q::U_MAX, self.largest.1 * velocity);
         results.set(&q::U_MAX_LEVEL, self.largest.0 * h);
         results.set(&q::MEAN_VELOCITY, discharge / h);

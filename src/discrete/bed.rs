@@ -113,8 +113,7 @@ fn settle(
     let derived = stability::of_pair(&law, 0.5 * mass);
     let dt = bed.discrete.time_step.unwrap_or(f64::INFINITY).min(FALLING * derived);
     let lowest = grains.iter().map(|g| g.position[2]).fold(0.0, f64::min) - 2.0 * bed.d;
-    let settings =
-        Settings { skin: bed.discrete.skin * bed.d, lowest, ..Settings::new(dt, [0.0, 0.0, -bed.g], bed.d) };
+    let settings = Settings { skin: bed.discrete.skin * bed.d, lowest, ..Settings::new(dt, [0.0, 0.0, -bed.g], bed.d) };
     let mut engine = Engine::new(grains, pack::domain(bed), law, settings, threads())?;
     // A drag that lets grains fall at sqrt(g d): they land softly.
     let slow = Pushed { force: 0.0, above: f64::INFINITY, drag: mass * (bed.g / bed.d).sqrt() };
@@ -150,8 +149,12 @@ impl<'a> Run<'a> {
             };
             fixed = pack::slice(&below.grains().listed(), 2.5 * bed.d, bed.d);
         }
-        // The plane of a slice bed stays one diameter below its grains.
-        let floor = if bed.bottom == Bottom::Plane { 0.0 } else { 0.5 * bed.d };
+        // Above the highest of the fixed grains.
+        let floor = match bed.bottom {
+            Bottom::Plane => 0.0,
+            Bottom::Steps => 0.5 * bed.d,
+            Bottom::Slice => bed.d,
+        };
         let mut grains = fixed;
         grains.extend(pack::cloud(bed, floor));
         let resting = GrainBed { bottom: if bed.bottom == Bottom::Slice { Bottom::Steps } else { bed.bottom }, ..*bed };

@@ -246,19 +246,15 @@ impl<C: ContactLaw> Engine<C> {
         let (step, way) = (from.whole()?, from.number()?);
         let dt = from.number()?;
         let gravity = [from.number()?, from.number()?, from.number()?];
-        let settings = Settings {
-            dt,
-            gravity,
-            skin: from.number()?,
-            largest_overlap: from.number()?,
-            lowest: from.number()?,
-        };
+        let settings =
+            Settings { dt, gravity, skin: from.number()?, largest_overlap: from.number()?, lowest: from.number()? };
         let mut grains = Grains { ids: whole32(from.words()?)?, ..Grains::default() };
         (grains.positions, grains.velocities, grains.spins) = (from.rows()?, from.rows()?, from.rows()?);
         let reference = from.rows()?;
         let count = grains.len();
         let mut named = vec![false; count];
-        let known = grains.ids.iter().all(|&id| named.get_mut(id as usize).is_some_and(|seen| !std::mem::replace(seen, true)));
+        let known =
+            grains.ids.iter().all(|&id| named.get_mut(id as usize).is_some_and(|seen| !std::mem::replace(seen, true)));
         let lengths = [&grains.positions, &grains.velocities, &grains.spins, &reference].map(|rows| rows.len());
         if !known || lengths != [count; 4] || count == 0 {
             return Err(CheckpointError::Corrupt { what: "the grains" });

@@ -13,7 +13,7 @@ use super::law::ContactLaw;
 use super::ledger::Ledger;
 use super::neighbours::Before;
 use super::stability;
-use super::tile::{Found, Moved, Tile, cut};
+use super::tile::{Moved, Tile, cut};
 use crate::runtime::pool::{Parts, Pool};
 
 /// How the grains are moved.
@@ -58,7 +58,7 @@ pub struct Engine<C> {
     /// first tile of each thread, and the end
     bounds: Vec<usize>,
     moved: Vec<Moved>,
-    former: Vec<Tile>,
+    pub(super) former: Vec<Tile>,
     cells: Cells,
     order: Vec<u32>,
     rebuilds: u64,
@@ -219,9 +219,8 @@ impl<C: ContactLaw> Engine<C> {
 
     /// Longest way of a grain since the list was made [m].
     fn farthest(&self) -> f64 {
-        let squared = |(now, then): (&Row, &Row)| {
-            (0..3).map(|k| (now.0[k] - then.0[k]) * (now.0[k] - then.0[k])).sum::<f64>()
-        };
+        let squared =
+            |(now, then): (&Row, &Row)| (0..3).map(|k| (now.0[k] - then.0[k]) * (now.0[k] - then.0[k])).sum::<f64>();
         let rows = self.grains.positions[..self.grains.len()].iter().zip(&self.reference);
         rows.map(squared).fold(0.0, f64::max).sqrt()
     }
@@ -258,8 +257,11 @@ impl<C: ContactLaw> Engine<C> {
 
     /// Gives each thread tiles with about as much work.
     pub(super) fn share(&mut self) {
-        let work: Vec<usize> =
-            self.tiles.iter().map(|tile| 2 * tile.pairs.len() + 6 * tile.grains.len() + tile.walls.grains.len()).collect();
+        let work: Vec<usize> = self
+            .tiles
+            .iter()
+            .map(|tile| 2 * tile.pairs.len() + 6 * tile.grains.len() + tile.walls.grains.len())
+            .collect();
         let total: usize = work.iter().sum();
         let threads = self.pool.threads();
         self.moved.resize(self.tiles.len(), Moved::default());
@@ -374,32 +376,5 @@ impl<C: ContactLaw> Engine<C> {
     #[must_use]
     pub fn ledger(&self) -> &Ledger {
         &self.ledger
-    }
-
-    /// What the last step found.
-    #[must_use]
-    pub fn found(&self) -> Found {
-        let mut sum = Found::default();
-        for tile in &self.tiles {
-            sum.contacts += tile.found.contacts;
-            sum.wall_contacts += tile.found.wall_contacts;
-            sum.overlap = sum.overlap.max(tile.found.overlap);
-        }
-        sum
-    }
-
-    /// Bytes held for the grains, their list and their history.
-    #[must_use]
-    pub fn memory(&self) -> usize {
-        let rows = 3 * self.grains.positions.capacity() + self.reference.capacity();
-        let tile = |tile: &Tile| {
-            8 * tile.pairs.capacity()
-                + 32 * (tile.springs.capacity() + tile.walls.springs.capacity())
-                + tile.touching.capacity()
-                + 4 * tile.starts.capacity()
-                + 64 * tile.loads.capacity()
-                + 8 * tile.walls.grains.capacity()
-        };
-        32 * rows + 12 * self.grains.len() + self.tiles.iter().chain(&self.former).map(tile).sum::<usize>()
     }
 }

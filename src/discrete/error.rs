@@ -51,7 +51,9 @@ pub enum GrainError {
         lowest: f64,
     },
     /// A time step that the contacts do not bear.
-    #[error("{place}: the time step {step_s:.3e} s is beyond its stability limit {limit_s:.3e} s, with {contacts} contacts")]
+    #[error(
+        "{place}: the time step {step_s:.3e} s is beyond its stability limit {limit_s:.3e} s, with {contacts} contacts"
+    )]
     StepTooLong {
         /// the grain that sets the limit
         place: Place,
@@ -63,7 +65,9 @@ pub enum GrainError {
         contacts: usize,
     },
     /// A period in which a grain could touch another one twice.
-    #[error("the period of {length:.6e} m along {axis} is not longer than {least:.6e} m: grains would meet their own images")]
+    #[error(
+        "the period of {length:.6e} m along {axis} is not longer than {least:.6e} m: grains would meet their own images"
+    )]
     PeriodTooShort {
         /// x or y
         axis: char,
@@ -87,8 +91,12 @@ impl From<GrainError> for SolveError {
         let (code, hint) = match error {
             GrainError::Overlap { .. } => ("overlap", "stiffer contacts (closures.contact.k_n) or slower grains"),
             GrainError::NotFinite { .. } => ("not-finite", "a shorter time step, or values nearer to those of grains"),
-            GrainError::Lost { .. } => ("grain-lost", "a bottom without gaps: bed.bottom = \"plane\" or more layers of fixed grains"),
-            GrainError::StepTooLong { .. } => ("step-too-long", "a shorter discrete.time_step, or discrete.force_time_step = true"),
+            GrainError::Lost { .. } => {
+                ("grain-lost", "a bottom without gaps: bed.bottom = \"plane\" or more layers of fixed grains")
+            }
+            GrainError::StepTooLong { .. } => {
+                ("step-too-long", "a shorter discrete.time_step, or discrete.force_time_step = true")
+            }
             GrainError::PeriodTooShort { .. } => ("period-too-short", "a longer flow.length or flow.width"),
             GrainError::Count { .. } => ("grain-count", "another number of bed.layers, flow.length or flow.width"),
         };

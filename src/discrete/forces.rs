@@ -4,9 +4,9 @@
 use super::domain::Domain;
 use super::grains::Grains;
 use super::lanes::scalar::One;
+use super::lanes::{Backend, Lanes, Load, Pair, cross, dot, minus, plus, scale};
 #[cfg(target_arch = "x86_64")]
 use super::lanes::{avx2::Four, avx512::Eight};
-use super::lanes::{Backend, Lanes, Load, Pair, cross, dot, minus, plus, scale};
 use super::law::{Contact, ContactLaw};
 use super::tile::{BLOCK, Found, GROUP, Tile};
 use super::walls;
@@ -61,12 +61,7 @@ pub fn compute<C: ContactLaw>(backend: Backend, scene: Scene<'_, C>, tile: &mut 
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn on_avx2<C: ContactLaw>(
-    proof: <Four as Lanes>::Proof,
-    scene: Scene<'_, C>,
-    tile: &mut Tile,
-    scratch: &mut Touching,
-) {
+fn on_avx2<C: ContactLaw>(proof: <Four as Lanes>::Proof, scene: Scene<'_, C>, tile: &mut Tile, scratch: &mut Touching) {
     tile_forces::<C, Four>(proof, scene, tile, scratch);
 }
 

@@ -6,7 +6,7 @@ use super::engine::{Engine, Settings};
 use super::grains::Grain;
 use super::law::LinearSpring;
 use crate::case::grain_tables::Target;
-use crate::closures::contact::{restitution, Tension};
+use crate::closures::contact::{Tension, restitution};
 use crate::problem::Impact;
 use crate::result::{Balance, Failure, Outcome, Results, SolveError, Status, Watch, quantity as q};
 use crate::units::significant;

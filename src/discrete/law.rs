@@ -106,7 +106,15 @@ impl LinearSpring {
     /// # Errors
     /// [`RestitutionError`] if no damping gives it.
     pub fn new(k_n: f64, k_s: f64, mu: f64, e_n: f64, tension: Tension) -> Result<Self, RestitutionError> {
-        Ok(Self { k_n, k_s, mu, zeta: restitution::damping_ratio(e_n, tension)?, tension, lammps: None, discrete: Discrete::default() })
+        Ok(Self {
+            k_n,
+            k_s,
+            mu,
+            zeta: restitution::damping_ratio(e_n, tension)?,
+            tension,
+            lammps: None,
+            discrete: Discrete::default(),
+        })
     }
 }
 
@@ -125,7 +133,11 @@ impl LinearSpring {
     /// `factor` times that of the closed form. Units: m = k_n = 1.
     fn followed(&self, x: f64, factor: f64) -> f64 {
         let damping = 2.0 * self.zeta * factor;
-        let law = Self { k_n: 1.0, discrete: Discrete { dt: x, equal: Some([0.0, damping, damping]), ..Discrete::default() }, ..*self };
+        let law = Self {
+            k_n: 1.0,
+            discrete: Discrete { dt: x, equal: Some([0.0, damping, damping]), ..Discrete::default() },
+            ..*self
+        };
         let zero = [One(0.0); 3];
         let mut sum = 0.0;
         for phase in 0..PHASES {

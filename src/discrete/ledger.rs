@@ -37,7 +37,8 @@ impl Ledger {
     #[must_use]
     pub fn defect(&self, kinetic: f64) -> f64 {
         let mut sum = Sum::default();
-        for part in [kinetic, -self.initial_kinetic, -self.contacts.total(), -self.gravity.total(), -self.body.total()] {
+        for part in [kinetic, -self.initial_kinetic, -self.contacts.total(), -self.gravity.total(), -self.body.total()]
+        {
             sum.add(part);
         }
         sum.total()

@@ -27,6 +27,7 @@ pub mod neighbours;
 pub mod outcome;
 pub mod pack;
 pub mod picture;
+pub mod readings;
 pub mod stability;
 pub mod tile;
 pub mod walls;

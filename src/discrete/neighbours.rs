@@ -97,9 +97,7 @@ impl Tile {
         self.walls = WallList::default();
         for (w, wall) in domain.walls.iter().enumerate() {
             let start = self.walls.grains.len();
-            let near = |&i: &usize| {
-                !grains.is_fixed(i) && wall.distance(grains.position(i)) < grains.radius(i) + skin
-            };
+            let near = |&i: &usize| !grains.is_fixed(i) && wall.distance(grains.position(i)) < grains.radius(i) + skin;
             for i in self.grains.clone().filter(near) {
                 self.walls.grains.push(i as u64);
                 self.walls.springs.push(before.wall_spring(w, i).unwrap_or_default());
@@ -151,7 +149,8 @@ impl Tile {
                 && r.end.next_multiple_of(GROUP) <= walls.grains.len()
                 && walls.grains[r.clone()].iter().all(|&i| self.grains.contains(&(i as usize)))
         });
-        let padded = walls.grains.iter().all(|&i| i as usize <= grains + 2) && walls.springs.len() == walls.grains.len();
+        let padded =
+            walls.grains.iter().all(|&i| i as usize <= grains + 2) && walls.springs.len() == walls.grains.len();
         let sound = starts
             && lists
             && ends

@@ -7,7 +7,9 @@ use super::law::LinearSpring;
 use super::stability;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
 use crate::problem::GrainBed;
-use crate::result::{Balance, Outcome, Profile, Quantity, Results, Series, SolveError, Status, Validity, quantity as q};
+use crate::result::{
+    Balance, Outcome, Profile, Quantity, Results, Series, SolveError, Status, Validity, quantity as q,
+};
 
 /// Blocks of the scalar means.
 const BLOCKS: usize = 10;

@@ -52,7 +52,11 @@ pub fn cloud(bed: &GrainBed, floor: f64) -> Vec<Grain> {
     let d = bed.d;
     let room = if bed.side_walls { bed.size[1] - d } else { bed.size[1] };
     let along = (bed.size[0] / (1.12 * d)).floor().max(1.0) as usize;
-    let across = if bed.side_walls { (room / (1.12 * d)).floor() as usize + 1 } else { (room / (1.12 * d)).floor().max(1.0) as usize };
+    let across = if bed.side_walls {
+        (room / (1.12 * d)).floor() as usize + 1
+    } else {
+        (room / (1.12 * d)).floor().max(1.0) as usize
+    };
     let gaps = if bed.side_walls { (across - 1).max(1) } else { across };
     let spacing = [bed.size[0] / along as f64, room / gaps as f64];
     let mut grains = Vec::with_capacity(bed.mobile);
@@ -74,10 +78,11 @@ pub fn cloud(bed: &GrainBed, floor: f64) -> Vec<Grain> {
     grains
 }
 
-/// The grains of a resting bed whose centres are within half a diameter of `level` [m], fixed, and moved so that their mean is at 0.
+/// The grains of a resting bed whose centres are within three quarters of a diameter of `level` [m], fixed, and moved so
+/// that their mean is at 0. A slice of one diameter, as in the paper, has holes through which a grain can fall.
 #[must_use]
 pub fn slice(resting: &[Grain], level: f64, d: f64) -> Vec<Grain> {
-    let inside = |g: &&Grain| (g.position[2] - level).abs() <= 0.5 * d;
+    let inside = |g: &&Grain| (g.position[2] - level).abs() <= 0.75 * d;
     let mut fixed: Vec<Grain> = resting.iter().filter(inside).copied().collect();
     let mean = fixed.iter().map(|g| g.position[2]).sum::<f64>() / fixed.len().max(1) as f64;
     for grain in &mut fixed {

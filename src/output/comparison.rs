@@ -8,6 +8,7 @@ use serde::Deserialize;
 
 use super::folder::{FIGURES, Folder, OutputError, holds_only, read_summary};
 use super::run::draw_png;
+use super::study;
 use crate::compare::{Comparison, Request};
 use crate::result::{Cost, Provenance, Status};
 
@@ -39,9 +40,9 @@ pub(super) fn stands_in(folder: &Path) -> bool {
 pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Result<Folder, OutputError> {
     Folder::claim(target, |folder| {
         let Some(record) = read(folder) else {
-            // A run is ours as well, but no comparison takes its place.
-            read_summary(folder)?;
-            return Err(OutputError::OtherKind { folder: folder.into(), holds: "run", wanted: "comparison" });
+            // A run or a study is ours as well, but no comparison takes its place.
+            let holds = if study::stands_in(folder) { "study" } else { read_summary(folder).map(|_| "run")? };
+            return Err(OutputError::OtherKind { folder: folder.into(), holds, wanted: "comparison" });
         };
         holds_only(folder, OURS)?;
         if force || record.request == *request {

@@ -4,21 +4,17 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::comparison;
+use super::grains::{CHECKPOINT, is_frame};
+use super::{comparison, study};
 use crate::result::{Status, Summary};
 
 /// Files that a run folder may hold; anything else in it is not ours.
-const OURS: &[&str] = &[
-    "summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES, CHECKPOINT, "grains.csv",
-];
-/// State from which a run of grains goes on.
-pub const CHECKPOINT: &str = "checkpoint.bin";
-/// Pictures of the grains for ParaView.
-fn is_frame(name: &str) -> bool {
-    name.strip_prefix("grains_").and_then(|n| n.strip_suffix(".vtp")).is_some_and(|n| n.parse::<u64>().is_ok())
-}
+pub(super) const OURS: &[&str] =
+    &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES, CHECKPOINT, "grains.csv"];
 /// The one folder in it, of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
+/// Written and removed to see whether files can be made.
+const PROBE: &str = ".probe";
 
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]
@@ -34,14 +30,14 @@ pub enum OutputError {
         /// what is not ours
         entry: String,
     },
-    /// a run where a comparison should be, or the other way round
+    /// a run where a comparison should be, and the like
     #[error("{} holds a {holds}, not a {wanted}", folder.display())]
     OtherKind {
         /// the folder
         folder: PathBuf,
-        /// run or comparison
+        /// run, comparison or study
         holds: &'static str,
-        /// run or comparison
+        /// run, comparison or study
         wanted: &'static str,
     },
     /// a comparison with other arguments
@@ -51,6 +47,22 @@ pub enum OutputError {
         folder: PathBuf,
         /// its arguments
         of: String,
+    },
+    /// a study with other points
+    #[error("{} holds another study: {of}", folder.display())]
+    OtherStudy {
+        /// the folder
+        folder: PathBuf,
+        /// the command that made it
+        of: String,
+    },
+    /// the same study, not finished
+    #[error("{} holds this study unfinished ({status})", folder.display())]
+    UnfinishedStudy {
+        /// the folder
+        folder: PathBuf,
+        /// its state
+        status: Status,
     },
     /// a run of another case, or of this one with other values
     #[error("{} holds a run of {case} with other values", folder.display())]
@@ -103,6 +115,8 @@ impl OutputError {
             Self::Foreign { .. } => "foreign-folder",
             Self::OtherKind { .. } => "other-kind",
             Self::OtherComparison { .. } => "other-comparison",
+            Self::OtherStudy { .. } => "other-study",
+            Self::UnfinishedStudy { .. } => "unfinished-study",
             Self::OtherCase { .. } => "other-case",
             Self::Unfinished { .. } => "unfinished-run",
             Self::Unwritable { .. } => "unwritable",
@@ -123,6 +137,8 @@ impl OutputError {
             Self::OtherComparison { .. } => {
                 Some("give another folder with --out, or --force to replace that comparison")
             }
+            Self::OtherStudy { .. } => Some("give another folder with --out, or --force to replace that study"),
+            Self::UnfinishedStudy { .. } => Some("--resume to keep the points that are done, --force to start again"),
             Self::OtherCase { .. } => Some("give another folder with --out, or --force to replace that run"),
             Self::Unfinished { .. } => Some("--resume to go on, --force to start again"),
             Self::NotARun { .. } => Some("give a folder that `bedload run` wrote"),
@@ -152,9 +168,9 @@ pub struct Mode {
 #[derive(Debug)]
 pub struct Folder {
     /// where the run will be
-    target: PathBuf,
+    pub(super) target: PathBuf,
     /// where it is written: the target itself, or a folder beside it that replaces it in the end
-    place: PathBuf,
+    pub(super) place: PathBuf,
     /// what was made for it: the place, or the first of the folders above it that were not there
     made: Option<PathBuf>,
     /// whether a finished run stands in the target
@@ -207,9 +223,16 @@ impl Folder {
             }
         };
         // Whether files can be made here is known before anything is computed.
-        let probe = folder.place.join(".probe");
+        let probe = folder.place.join(PROBE);
         fs::write(&probe, b"").and_then(|()| fs::remove_file(&probe)).map_err(unwritable(&folder.place))?;
         Ok(folder)
+    }
+
+    /// A folder that goes on being written where it stands: nothing is taken back.
+    pub(super) fn go_on(target: &Path) -> Self {
+        let mut folder = Self::new(target.into(), target.into(), None, false);
+        folder.finished = true;
+        folder
     }
 
     fn new(target: PathBuf, place: PathBuf, made: Option<PathBuf>, over_finished: bool) -> Self {
@@ -240,18 +263,6 @@ impl Folder {
     /// [`OutputError::Interrupted`] with the file.
     pub fn write(&self, name: &str, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
         write_whole(&self.place.join(name), content)
-    }
-
-    /// Writes the checkpoint of a run that goes on from another one beside that one, too: it may be stopped before it
-    /// takes its place.
-    ///
-    /// # Errors
-    /// [`OutputError::Interrupted`] with the file.
-    pub fn write_checkpoint(&self, bytes: &[u8], going_on: bool) -> Result<(), OutputError> {
-        if going_on && self.place != self.target {
-            write_whole(&self.target.join(CHECKPOINT), |to| to.write_all(bytes))?;
-        }
-        self.write(CHECKPOINT, |to| to.write_all(bytes))
     }
 
     /// Puts the run in its place.
@@ -285,7 +296,7 @@ impl Drop for Folder {
         }
         // Nothing can be done about a failure here, and nothing but our own files is touched.
         let Some(made) = &self.made else {
-            for name in OURS.iter().chain(comparison::OURS) {
+            for name in OURS.iter().chain(comparison::OURS).chain(study::OURS) {
                 let path = self.place.join(name);
                 let _ = if path.is_dir() { fs::remove_dir_all(path) } else { fs::remove_file(path) };
             }
@@ -331,6 +342,9 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputEr
     if comparison::stands_in(folder) {
         return Err(OutputError::OtherKind { folder: folder.into(), holds: "comparison", wanted: "run" });
     }
+    if study::stands_in(folder) {
+        return Err(OutputError::OtherKind { folder: folder.into(), holds: "study", wanted: "run" });
+    }
     let summary = read_summary(folder)?;
     holds_only(folder, OURS)?;
     let same = fs::read_to_string(folder.join("case.toml")).is_ok_and(|text| text == case);
@@ -348,10 +362,12 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputEr
 /// Whether every entry of a folder is one of `ours`, a figure, or a file that was being written.
 pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError> {
     let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
-    let partial = |name: &str| name.starts_with('.') && name.contains(".part-");
+    let partial = |name: &str| name == PROBE || name.starts_with('.') && name.contains(".part-");
     let foreign = |entry: String| Err(OutputError::Foreign { folder: folder.into(), entry });
     for (name, is_folder) in entries(folder).map_err(unwritable)? {
-        if is_folder != (name == FIGURES) || !(ours.contains(&name.as_str()) || partial(&name) || is_frame(&name)) {
+        if is_folder != [FIGURES, study::POINTS].contains(&name.as_str())
+            || !(ours.contains(&name.as_str()) || partial(&name) || is_frame(&name))
+        {
             return foreign(name);
         }
     }
@@ -364,7 +380,7 @@ pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError
 }
 
 /// Name of each entry of a folder, and whether it is a folder.
-fn entries(folder: &Path) -> io::Result<Vec<(String, bool)>> {
+pub(super) fn entries(folder: &Path) -> io::Result<Vec<(String, bool)>> {
     fs::read_dir(folder)?
         .map(|entry| {
             let entry = entry?;

@@ -27,9 +27,14 @@ pub struct Written {
     pub kept: bool,
 }
 
+/// SHA-256 of a text, such as a resolved case, as 64 hexadecimal digits.
+#[must_use]
+pub fn fingerprint(text: &str) -> String {
+    Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// The summary of a run that has just begun.
 fn begin(case: &Case, problem: &Problem, resolved: &str, threads: usize) -> Summary {
-    let digest = Sha256::digest(resolved.as_bytes());
     Summary {
         format: Summary::FORMAT,
         status: Status::Running,
@@ -44,7 +49,7 @@ fn begin(case: &Case, problem: &Problem, resolved: &str, threads: usize) -> Summ
         provenance: Provenance {
             source: case.source.clone(),
             overrides: case.overrides.clone(),
-            case_sha256: digest.iter().map(|byte| format!("{byte:02x}")).collect(),
+            case_sha256: fingerprint(resolved),
             threads,
             ..Provenance::of_this_program()
         },
@@ -229,6 +234,12 @@ pub fn read_run(folder: &Path) -> Result<(Summary, Option<Profile>), OutputError
         Err(_) => None,
     };
     Ok((summary, profile))
+}
+
+/// The residuals or the time series of a run, if its folder has them.
+#[must_use]
+pub fn read_series(folder: &Path) -> Option<Series> {
+    Series::read_csv(BufReader::new(fs::File::open(folder.join("series.csv")).ok()?)).ok()
 }
 
 fn read_text(folder: &Path, name: &str) -> Result<String, OutputError> {

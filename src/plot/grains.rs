@@ -17,8 +17,10 @@ pub fn grains_svg(table: impl BufRead) -> Option<String> {
     let columns = read_columns(table).ok()?;
     let column = |name: &str| columns.iter().find(|(n, _)| n == name).map(|(_, v)| v);
     let [x, z, r, u] = [column("x_m")?, column("z_m")?, column("radius_m")?, column("u_particle_m_s")?];
-    let rows: Vec<[f64; 4]> =
-        (0..x.len()).filter_map(|i| Some([x[i]?, z[i]?, r[i]?, u[i]?])).filter(|row| row.iter().all(|v| v.is_finite())).collect();
+    let rows: Vec<[f64; 4]> = (0..x.len())
+        .filter_map(|i| Some([x[i]?, z[i]?, r[i]?, u[i]?]))
+        .filter(|row| row.iter().all(|v| v.is_finite()))
+        .collect();
     let low = |of: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(of).fold(f64::INFINITY, f64::min);
     let high = |of: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
     let (left, right) = (low(&|g| g[0] - g[2]), high(&|g| g[0] + g[2]));

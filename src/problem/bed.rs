@@ -4,6 +4,7 @@ use super::Faults;
 use crate::case::Fault;
 use crate::case::scene::{Laminar, Ouriemi};
 use crate::case::tables::{Bed, BedClosures, Fluid, Form, Grains, LaminarFlow, RegularisationTable};
+use crate::closures::dilatancy::{self, Dilatancy, PhiIv};
 use crate::closures::drag::{self, CarmanKozeny, Drag};
 use crate::closures::friction::{self, Coulomb, Friction, MuIv};
 use crate::closures::mixture_viscosity::MixtureViscosity;
@@ -47,6 +48,8 @@ pub struct LaminarBed {
     pub viscosity: MixtureViscosity,
     /// drag between the phases: the two-fluid form; `None`: one velocity, the mixed form
     pub drag: Option<CarmanKozeny>,
+    /// fall of the solid fraction with the viscous number; `None`: the same everywhere
+    pub dilatancy: Option<PhiIv>,
 }
 
 impl LaminarBed {
@@ -188,6 +191,21 @@ fn laminar_bed(
             None
         }
     };
+    let dilatancy = match closures.dilatancy {
+        Dilatancy::None => None,
+        Dilatancy::PhiIv(law) if rise.is_some() => Some(law),
+        Dilatancy::PhiIv(_) => {
+            let model = format!("{model} unless the friction is {}", friction::mu_iv::INFO.law);
+            let allowed = vec![dilatancy::none::INFO.law];
+            faults.push(("closures.dilatancy.law", mismatch("dilatancy", dilatancy::phi_iv::INFO.law, model, allowed)));
+            None
+        }
+    };
+    if dilatancy.is_some() && drag.is_some_and(|law: CarmanKozeny| law.phi_min == 0.0) {
+        let model = format!("{model} with closures.dilatancy, unless closures.drag.phi_min is more than 0");
+        let law = drag::carman_kozeny::INFO.law;
+        faults.push(("closures.drag.law", mismatch("drag", law, model, vec![law])));
+    }
     let drive = match (flow.pressure_gradient, flow.shields) {
         (Some(gradient), _) => Drive::PressureGradient(gradient),
         (None, Some(shields)) => Drive::Shields(shields),
@@ -207,5 +225,6 @@ fn laminar_bed(
         rise,
         viscosity: closures.mixture_viscosity,
         drag,
+        dilatancy,
     })
 }

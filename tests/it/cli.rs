@@ -4,8 +4,20 @@ use serde_json::{Value, json};
 
 use crate::support::Scratch;
 
-const VERBS: &[&str] =
-    &["run", "check", "explain", "new", "list", "report", "compare", "validate", "schema", "completions"];
+const VERBS: &[&str] = &[
+    "run",
+    "check",
+    "explain",
+    "new",
+    "list",
+    "report",
+    "compare",
+    "converge",
+    "sweep",
+    "validate",
+    "schema",
+    "completions",
+];
 
 #[test]
 fn every_verb_has_help() {

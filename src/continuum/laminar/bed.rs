@@ -2,10 +2,13 @@
 
 use super::element::{Element, Rise};
 use super::mesh::{Layer, Mesh};
-use super::{single, two_fluid};
+use super::packing::Packing;
+use super::{single, spreading};
+use crate::closures::dilatancy::PhiIv;
+use crate::closures::drag::CarmanKozeny;
 use crate::closures::friction::MuIv;
+use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::continuum::exact::ouriemi::Scaled;
-use crate::numerics::root::brent;
 use crate::problem::Regularisation;
 use crate::result::SolveError;
 
@@ -26,7 +29,31 @@ pub struct Bed {
     pub e: f64,
     /// permeability; `None`: one velocity
     pub k: Option<f64>,
+    /// how the grains spread where they shear; `None`: `phi`, `e` and `k` hold everywhere, else only at rest
+    pub dilation: Option<Dilation>,
 }
+
+/// How the grains spread where they shear, and what depends on their solid fraction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Dilation {
+    /// solid fraction
+    pub law: PhiIv,
+    /// relative viscosity
+    pub viscosity: MixtureViscosity,
+    /// permeability, with the diameter of the grains
+    pub drag: Option<(CarmanKozeny, f64)>,
+}
+
+impl Dilation {
+    pub(super) fn permeability(&self, phi: f64) -> Option<f64> {
+        self.drag.map(|(law, d)| law.permeability(phi, d))
+    }
+}
+
+/// Rounds of flow and packing, or of flow and yield level.
+pub(super) const MOST: usize = 200;
+/// Change of a solid fraction, or of the yield level in H, that counts as none.
+pub(super) const SETTLED: f64 = 1e-13;
 
 /// Where nodes go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,6 +71,8 @@ pub struct Solution {
     pub mesh: Mesh,
     /// elements in the bed
     pub bed: usize,
+    /// solid fraction and particle pressure
+    pub packing: Packing,
     /// yield level: where the grains carry just mu_s P_p; the bed level where they are at rest
     pub h_c: f64,
     /// mixture velocity at the nodes
@@ -69,14 +98,8 @@ impl Bed {
         Scaled { f: self.f, hold, e: self.e, h_p: self.h_p, k }.largest_drive()
     }
 
-    /// Particle pressure at `z`.
-    #[must_use]
-    pub fn pressure(&self, z: f64) -> f64 {
-        self.phi * (self.h_p - z).max(0.0)
-    }
-
     /// The mesh for the yield level `h_c`.
-    fn mesh(&self, nodes: Nodes, h_c: f64) -> Mesh {
+    pub(super) fn mesh(&self, nodes: Nodes, h_c: f64) -> Mesh {
         let n = nodes.elements;
         let equal = |top: f64, elements: usize| Layer {
             top,
@@ -94,16 +117,12 @@ impl Bed {
         Mesh::layered(&[still, equal(self.h_p, quarter), clear])
     }
 
-    fn elements(&self, mesh: &Mesh) -> Vec<Element> {
-        let rise = |p: f64| self.rise.map(|law| Rise { p, law });
+    pub(super) fn elements(&self, mesh: &Mesh, packing: &Packing) -> Vec<Element> {
         let element = |k: usize| {
-            let z = mesh.middle(k);
-            if z < self.h_p {
-                let p = self.pressure(z);
-                Element { e: self.e, y: self.mu_s * p, rise: rise(p) }
-            } else {
-                Element { e: 1.0, y: 0.0, rise: None }
-            }
+            let Some(&phi) = packing.phi.get(k) else { return Element { e: 1.0, y: 0.0, rise: None } };
+            let p = packing.middle[k];
+            let e = self.dilation.map_or(self.e, |dilation| dilation.viscosity.relative(phi));
+            Element { e, y: self.mu_s * p, rise: self.rise.map(|law| Rise { p, law }) }
         };
         (0..mesh.elements()).map(element).collect()
     }
@@ -124,103 +143,62 @@ impl Bed {
         }
     }
 
-    /// Where the stress `t_0 - f z` crosses the yield stress.
-    fn crossing(&self, t_0: f64) -> f64 {
-        let hold = self.mu_s * self.phi;
-        (hold * self.h_p - t_0) / (hold - self.f)
+    fn mixed(&self, nodes: Nodes, regularisation: &Regularisation) -> Result<Solution, SolveError> {
+        let (mut h_c, mut gamma) = (0.75 * self.h_p, Vec::new());
+        let (mut mesh, mut packing, mut solved) = self.sheared(nodes, &mut h_c, &mut gamma, None)?;
+        if !regularisation.is_exact() {
+            (mesh, packing, solved) = self.sheared(nodes, &mut h_c, &mut gamma, Some(regularisation))?;
+        }
+        let bed = packing.phi.len();
+        let total = |k: usize| solved.t_0 - self.f * mesh.middle(k);
+        let elements = self.elements(&mesh, &packing);
+        let tau_f: Vec<f64> = elements.iter().zip(&solved.gamma).map(|(element, gamma)| element.e * gamma).collect();
+        let tau_p = (0..bed).map(|k| total(k) - tau_f[k]).collect();
+        let w = solved.u[..=bed].to_vec();
+        Ok(Solution { mesh, bed, packing, h_c, w, tau_f, tau_p, slip: 0.0, u: solved.u, history: solved.history })
     }
 
-    fn mixed(&self, nodes: Nodes, regularisation: &Regularisation) -> Result<Solution, SolveError> {
-        let mut h_c = 0.75 * self.h_p;
-        // With a node on the yield level the stress is exact, so the level converges as fast as its own error squared.
-        let mut solved = None;
-        for _ in 0..if nodes.on_yield { 60 } else { 1 } {
-            let mesh = self.mesh(nodes, h_c);
-            let rigid =
-                single::solve(&mesh, &self.elements(&mesh), self.f, &Regularisation::EXACT).map_err(not_converged)?;
-            let level = self.crossing(rigid.t_0);
+    /// One velocity, with the packing that its shear rates `gamma` leave. With the exact yield, where `regularisation` is
+    /// `None`, the yield level `h_c` follows.
+    pub(super) fn sheared(
+        &self,
+        nodes: Nodes,
+        h_c: &mut f64,
+        gamma: &mut Vec<f64>,
+        regularisation: Option<&Regularisation>,
+    ) -> Result<(Mesh, Packing, single::Solved), SolveError> {
+        let law = regularisation.unwrap_or(&Regularisation::EXACT);
+        let mut moved = f64::INFINITY;
+        for _ in 0..MOST {
+            let mesh = self.mesh(nodes, *h_c);
+            let (packing, solved) = if self.dilation.is_some() {
+                spreading::solve(self, &mesh, law)
+            } else {
+                let packing = Packing::of(self, &mesh, &[]);
+                single::solve(&mesh, &self.elements(&mesh, &packing), self.f, law).map(|solved| (packing, solved))
+            }
+            .map_err(not_converged)?;
+            gamma.clone_from(&solved.gamma);
+            if regularisation.is_some() {
+                return Ok((mesh, packing, solved));
+            }
+            // Where the stress t_0 - f z crosses the yield stress; the bed below is packed as at rest. With a node there the
+            // stress is exact, so the level converges as fast as its own error squared.
+            let level = (self.mu_s * packing.pressure[0] - solved.t_0) / (self.mu_s * self.phi - self.f);
             if level <= 0.0 {
                 return Err(self.whole_bed(level));
             }
-            let moved = (level - h_c).abs();
-            h_c = level.min(self.h_p);
-            solved = Some((mesh, rigid));
-            if moved <= 4.0 * f64::EPSILON {
-                break;
+            let level = level.min(self.h_p);
+            moved = (level - *h_c).abs();
+            *h_c = level;
+            if !nodes.on_yield || moved <= SETTLED {
+                return Ok((mesh, packing, solved));
             }
         }
-        let Some((mesh, mut solved)) = solved else { return Err(self.whole_bed(0.0)) };
-        let elements = self.elements(&mesh);
-        if !regularisation.is_exact() {
-            solved = single::solve(&mesh, &elements, self.f, regularisation).map_err(not_converged)?;
-        }
-        let bed = mesh.below(self.h_p);
-        let total = |k: usize| solved.t_0 - self.f * mesh.middle(k);
-        let tau_f: Vec<f64> = elements.iter().zip(&solved.gamma).map(|(element, gamma)| element.e * gamma).collect();
-        let tau_p = (0..bed).map(|k| total(k) - tau_f[k]).collect();
-        Ok(Solution {
-            bed,
-            h_c,
-            w: solved.u[..=bed].to_vec(),
-            tau_f,
-            tau_p,
-            slip: 0.0,
-            u: solved.u,
-            mesh,
-            history: solved.history,
-        })
+        Err(SolveError::NotConverged { residual: moved, iterations: MOST })
     }
 
-    fn slipping(&self, nodes: Nodes, k: f64, regularisation: &Regularisation) -> Result<Solution, SolveError> {
-        let on_yield = Nodes { on_yield: true, ..nodes };
-        // Excess of the seepage just above the level over the slip of moving grains: their velocity there.
-        let moving = |h_c: f64| {
-            let mesh = self.mesh(on_yield, h_c);
-            self.with(&mesh, h_c, k, |coupled| {
-                let still = mesh.below(h_c);
-                coupled.rigid(still).u[still] / (k * self.mu_s * self.phi) - 1.0
-            })
-        };
-        let mut history = Vec::new();
-        let h_c = if moving(self.h_p) <= 0.0 {
-            self.h_p
-        } else {
-            let low = 1e-3 * (k * self.e).sqrt().min(self.h_p);
-            brent(moving, low, self.h_p, |r| history.push(r.abs())).map_err(|_| self.whole_bed(0.0))?
-        };
-        let mesh = self.mesh(on_yield, h_c);
-        let still = mesh.below(h_c);
-        let start = self.with(&mesh, h_c, k, |coupled| coupled.rigid(still));
-        if regularisation.is_exact() && self.rise.is_none() {
-            let solved = two_fluid::Solved { history, ..start };
-            return Ok(self.collect(mesh, h_c, k, solved));
-        }
-        let mesh = if nodes.on_yield { mesh } else { self.mesh(nodes, h_c) };
-        let start = self.with(&mesh, h_c, k, |coupled| coupled.rigid(mesh.below(h_c)));
-        let solved = self.with(&mesh, h_c, k, |coupled| coupled.creeping(&start, regularisation));
-        let solved = solved.map_err(|e| SolveError::NotConverged { residual: e.residual, iterations: e.iterations })?;
-        Ok(self.collect(mesh, h_c, k, solved))
-    }
-
-    /// Calls `run` with the coupled problem on `mesh`.
-    fn with<T>(&self, mesh: &Mesh, h_c: f64, k: f64, run: impl FnOnce(&two_fluid::Coupled<'_>) -> T) -> T {
-        let elements = self.elements(mesh);
-        let bed = mesh.below(self.h_p);
-        let yields: Vec<f64> = mesh.nodes()[..=bed].iter().map(|&z| self.mu_s * self.pressure(z)).collect();
-        let k = vec![k; bed];
-        let fitted = (0..bed).take_while(|&i| mesh.nodes()[i + 1] <= h_c * (1.0 + 1e-12)).count();
-        run(&two_fluid::Coupled { mesh, elements: &elements, bed, f: self.f, fitted, k: &k, yields: &yields })
-    }
-
-    fn collect(&self, mesh: Mesh, h_c: f64, k: f64, solved: two_fluid::Solved) -> Solution {
-        let (tau_f, slip) = self.with(&mesh, h_c, k, |coupled| {
-            (coupled.fluid_stress(&solved.u, &solved.w), coupled.slip_integral(&solved.u, &solved.w))
-        });
-        let bed = mesh.below(self.h_p);
-        Solution { bed, h_c, tau_f, u: solved.u, w: solved.w, tau_p: solved.tau_p, slip, history: solved.history, mesh }
-    }
-
-    fn whole_bed(&self, level: f64) -> SolveError {
+    pub(super) fn whole_bed(&self, level: f64) -> SolveError {
         SolveError::WholeBedMoves {
             mobile_depth_m: self.h_p - level.min(0.0),
             bed_m: self.h_p,
@@ -241,11 +219,17 @@ impl Solution {
         self.tau_f[self.bed] + f * (self.mesh.middle(self.bed) - z)
     }
 
-    /// Solid flux per phi: integral of the grain velocity over the bed. Exact where the shear rate is linear on each side of
-    /// the yield level: the trapezoidal rule with the change of the shear rate along the element.
+    /// Solid flux: integral of phi times the grain velocity over the bed. Exact where the shear rate is linear on each side
+    /// of the yield level: the trapezoidal rule with the change of the shear rate along the element.
     #[must_use]
     pub fn flux(&self) -> f64 {
-        (0..self.bed).map(|k| self.integral(k)).sum()
+        (0..self.bed).map(|k| self.packing.phi[k] * self.integral(k)).sum()
+    }
+
+    /// Integral of the mixture velocity over the bed.
+    #[must_use]
+    pub fn discharge(&self) -> f64 {
+        self.slip + (0..self.bed).map(|k| self.integral(k)).sum::<f64>()
     }
 
     /// Integral of the grain velocity over element `k` of the bed.
@@ -258,68 +242,5 @@ impl Solution {
         let slopes: Vec<f64> = neighbours.into_iter().flatten().filter(|i| side(*i) == side(k)).map(slope).collect();
         let curvature = if slopes.is_empty() { 0.0 } else { slopes.iter().sum::<f64>() / slopes.len() as f64 };
         0.5 * h * (self.w[k] + self.w[k + 1]) - curvature * h.powi(3) / 12.0
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::problem::Smoothing;
-    use approx::assert_relative_eq;
-
-    fn bed(k: Option<f64>) -> Bed {
-        Bed { f: 0.1, h_p: 0.5, phi: 0.55, mu_s: 0.43, rise: None, e: 2.375, k }
-    }
-
-    const K: f64 = 1.8595e-6;
-
-    fn exact(bed: &Bed) -> crate::continuum::exact::ouriemi::Solution {
-        Scaled { f: bed.f, hold: bed.mu_s * bed.phi, e: bed.e, h_p: bed.h_p, k: bed.k }.solve(|_| {}).unwrap()
-    }
-
-    fn error(bed: &Bed, solution: &Solution) -> f64 {
-        let exact = exact(bed);
-        let norm = |f: &dyn Fn(usize) -> f64| (0..solution.u.len()).map(|j| f(j).powi(2)).sum::<f64>().sqrt();
-        let z = solution.mesh.nodes();
-        norm(&|j| solution.u[j] - exact.mixture(z[j])) / norm(&|j| exact.mixture(z[j]))
-    }
-
-    #[test]
-    fn exact_yield_is_the_closed_form() {
-        for k in [None, Some(K)] {
-            let bed = bed(k);
-            let solution = bed.solve(Nodes { elements: 200, on_yield: true }, &Regularisation::EXACT).unwrap();
-            println!(
-                "{k:?} error {:e} h_c {:e} history {:?}",
-                error(&bed, &solution),
-                solution.h_c - exact(&bed).h_c,
-                solution.history.len()
-            );
-            assert_relative_eq!(solution.h_c, exact(&bed).h_c, max_relative = 1e-13);
-            assert!(error(&bed, &solution) < 1e-12);
-        }
-    }
-
-    #[test]
-    fn regularised_table() {
-        for k in [None, Some(K)] {
-            let bed = bed(k);
-            for law in [Smoothing::Simple, Smoothing::BercovierEngelman, Smoothing::Papanastasiou] {
-                for p in 1..=12 {
-                    let r = Regularisation { law, lambda: 10f64.powi(-p) };
-                    match bed.solve(Nodes { elements: 400, on_yield: true }, &r) {
-                        Ok(s) => println!(
-                            "{} {law:?} 1e-{p}: error {:.3e} flux {:.3e} its {} res {:.1e}",
-                            k.is_some(),
-                            error(&bed, &s),
-                            s.flux() / exact(&bed).flux() - 1.0,
-                            s.history.len(),
-                            s.history.last().unwrap()
-                        ),
-                        Err(e) => println!("{} {law:?} 1e-{p}: {e}", k.is_some()),
-                    }
-                }
-            }
-        }
     }
 }

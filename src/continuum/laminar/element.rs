@@ -53,7 +53,12 @@ impl Element {
         }
         // Between the shear rates without and with the whole yield stress and its rise.
         let (mut low, mut high) = (0.0_f64, size / self.e);
-        let mut gamma = ((size - self.y) / self.e).max(0.5 * self.creep(size, regularisation)).min(high);
+        let flow = self.beyond(size - self.y);
+        if regularisation.is_exact() {
+            let (_, slope) = self.solid(flow, regularisation);
+            return (flow.copysign(t), 1.0 / (self.e + slope));
+        }
+        let mut gamma = flow.max(0.5 * self.creep(size, regularisation)).min(high);
         for _ in 0..200 {
             let (solid, slope) = self.solid(gamma, regularisation);
             let excess = self.e * gamma + solid - size;
@@ -75,6 +80,19 @@ impl Element {
         }
         let (_, slope) = self.solid(gamma, regularisation);
         (gamma.copysign(t), 1.0 / (self.e + slope))
+    }
+
+    /// The shear rate under a stress that exceeds the yield stress by `excess`: the root of
+    /// `(e gamma - excess) (I_0 p + gamma) + (mu_2 - mu_s) p gamma = 0`.
+    fn beyond(&self, excess: f64) -> f64 {
+        if excess <= 0.0 {
+            return 0.0;
+        }
+        let Some(Rise { p, law }) = self.rise else { return excess / self.e };
+        let half = law.i_0 * p;
+        let b = self.e * half + (law.mu_2 - law.mu_s) * p - excess;
+        let root = (b * b + 4.0 * self.e * half * excess).sqrt();
+        if b > 0.0 { 2.0 * half * excess / (b + root) } else { 0.5 * (root - b) / self.e }
     }
 
     /// Creep of the regularised solid under the stress `size`, from the paper's law: gamma = lambda size/(y - size).

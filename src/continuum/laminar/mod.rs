@@ -7,8 +7,13 @@ pub mod bed;
 pub mod element;
 pub mod mesh;
 mod outcome;
+pub mod packing;
 mod plane;
 pub mod single;
+mod slipping;
+mod spreading;
+#[cfg(test)]
+mod tests;
 pub mod two_fluid;
 
 pub use outcome::{equations, run};

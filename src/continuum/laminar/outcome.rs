@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::bed::{Bed, Nodes, Solution};
+use super::bed::{Bed, Dilation, Nodes, Solution};
 use super::mesh::Mesh;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::continuum::bed_results::BedNumbers;
@@ -27,6 +27,11 @@ impl Bed {
             rise: bed.rise,
             e: bed.viscosity.relative(bed.phi),
             k: bed.drag.map(|law| law.permeability(bed.phi, bed.d / bed.h)),
+            dilation: bed.dilatancy.map(|law| Dilation {
+                law,
+                viscosity: bed.viscosity,
+                drag: bed.drag.map(|law| (law, bed.d / bed.h)),
+            }),
         }
     }
 }
@@ -116,12 +121,12 @@ fn numbers(bed: &Bed, solution: &Solution) -> BedNumbers {
     let x = (tau / bed.f).clamp(0.0, d);
     let top = solution.bed - 1;
     let rate = (solution.w[top + 1] - solution.w[top]) / solution.mesh.size(top);
-    let flux = solution.flux();
     BedNumbers {
         f: bed.f,
-        flux,
+        flux: solution.flux(),
+        phi_interface: if bed.dilation.is_some() && solution.h_c < bed.h_p { 0.0 } else { bed.phi },
         // The clear fluid is a parabola through both walls of its layer.
-        discharge: flux + solution.slip + 0.5 * u * d + bed.f * d.powi(3) / 12.0,
+        discharge: solution.discharge() + 0.5 * u * d + bed.f * d.powi(3) / 12.0,
         tau,
         h_c: solution.h_c,
         largest: (bed.h_p + x, u + tau * x - 0.5 * bed.f * x * x),
@@ -160,6 +165,7 @@ pub(super) fn spread(mesh: &Mesh, values: &dyn Fn(usize) -> f64, from: usize, to
 
 fn profile(bed: &Bed, solution: &Solution, si: &LaminarBed) -> Result<Profile, TableError> {
     let (mesh, n, top) = (&solution.mesh, solution.mesh.elements(), solution.bed);
+    let packing = &solution.packing;
     let still = mesh.below(solution.h_c).min(top);
     let (velocity, stress) = (si.velocity_scale(), si.stress_scale());
     // Each layer by itself: the corners at the yield level and at the bed level stay corners.
@@ -178,16 +184,19 @@ fn profile(bed: &Bed, solution: &Solution, si: &LaminarBed) -> Result<Profile, T
     let shear = by_layer(&rate, false);
     let grains: Vec<Option<f64>> = (0..=n).map(|j| solution.w.get(j).map(|w| w * velocity)).collect();
     let mixture: Vec<Option<f64>> = solution.u.iter().map(|u| Some(u * velocity)).collect();
-    let in_bed = move |j: usize| j <= top;
-    let phi: Vec<Option<f64>> = (0..=n).map(|j| Some(if in_bed(j) { bed.phi } else { 0.0 })).collect();
-    let flux = (0..=n).map(|j| Some(grains[j].map_or(0.0, |w| bed.phi * w))).collect();
-    let pressure = mesh.nodes().iter().map(|&z| Some(stress * bed.pressure(z))).collect();
+    let phi: Vec<f64> = match bed.dilation {
+        None => (0..=n).map(|j| if j <= top { bed.phi } else { 0.0 }).collect(),
+        Some(_) => by_layer(&|k| packing.phi[k], false).into_iter().map(|phi| phi.unwrap_or(0.0).max(0.0)).collect(),
+    };
+    let flux = (0..=n).map(|j| Some(grains[j].map_or(0.0, |w| phi[j] * w))).collect();
+    let pressure = (0..=n).map(|j| Some(stress * packing.pressure.get(j).copied().unwrap_or(0.0))).collect();
     let fluid = (0..=n)
         .map(|j| {
             let u = mixture[j]?;
-            Some(grains[j].map_or(u, |w| (u - bed.phi * w) / (1.0 - bed.phi)))
+            Some(grains[j].map_or(u, |w| (u - phi[j] * w) / (1.0 - phi[j])))
         })
         .collect();
+    let phi = phi.into_iter().map(Some).collect();
     let tau_p = tau_p.into_iter().map(|t| t.or(Some(0.0))).collect();
     let mut table: Vec<(&'static Quantity, Vec<Option<f64>>)> = vec![
         (&q::PHI, phi),
@@ -225,20 +234,29 @@ pub fn equations(problem: &RegularisedBed) -> String {
         "Viscous fluid over a bed of grains between two planes, {form} form.\n\n\
          units              H = {h} m,  (ρ_p - ρ_f) g H = {stress} Pa,  (ρ_p - ρ_f) g H²/η = {velocity} m/s\n\
          drive              {drive}\n\
-         particle pressure  P_p = φ (h_p - z),  φ = {phi},  h_p = {h_p}\n\
+         particle pressure  P_p = {pressure},  φ = {phi},  h_p = {h_p}\n\
          viscosity          η_e/η = e = {relative} = {e} in the bed, 1 above\n\
          friction           {friction}\n\
+         packing            {packing}\n\
          yield              {yielding}\n\n\
          mixture            (e U')' + τ_p' + f = 0,  U(0) = U(1) = 0\n",
         form = bed.form_name(),
         h = n(bed.h),
         stress = n(bed.stress_scale()),
         velocity = n(bed.velocity_scale()),
+        pressure = if bed.dilatancy.is_some() { "integral of φ from z to h_p" } else { "φ (h_p - z)" },
         phi = n(bed.phi),
         h_p = n(bed.h_p / bed.h),
         relative = viscosity_text(bed),
         e = n(bed.viscosity.relative(bed.phi)),
         friction = friction_text(bed),
+        packing = bed.dilatancy.map_or("φ is the same at every shear rate".into(), |law| {
+            format!(
+                "φ falls to φ/(1 + a sqrt(I_v)),  a = {},  changes P_p{}",
+                n(law.a),
+                if bed.drag.is_some() { ", e and K" } else { " and e" }
+            )
+        }),
         yielding = yield_text(regularisation, bed.velocity_scale() / bed.h),
     );
     if let Some(law) = bed.drag {

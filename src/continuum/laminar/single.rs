@@ -92,7 +92,7 @@ pub fn solve(
 }
 
 /// Velocities from both walls to the largest one, so that round-off does not pile up at the upper wall.
-fn finish(mesh: &Mesh, t_0: f64, gamma: Vec<f64>, history: Vec<f64>) -> Solved {
+pub(super) fn finish(mesh: &Mesh, t_0: f64, gamma: Vec<f64>, history: Vec<f64>) -> Solved {
     let n = gamma.len();
     let turn = gamma.iter().position(|g| *g < 0.0).unwrap_or(n);
     let mut u = vec![0.0; n + 1];

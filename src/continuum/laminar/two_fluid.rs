@@ -36,8 +36,8 @@ pub struct Coupled<'a> {
     pub bed: usize,
     /// drive
     pub f: f64,
-    /// elements at the bottom of the bed whose drag is fitted to exponentials, those below the yield level
-    pub fitted: usize,
+    /// how the fluid feels the elements of the bed: [`Coupled::seepages`]
+    pub seepages: &'a [Seepage],
     /// permeability of each element of the bed
     pub k: &'a [f64],
     /// yield stress at the nodes of the bed
@@ -74,23 +74,27 @@ const ROUND_OFF: f64 = 1e-13;
 /// How the fluid feels one element of the bed: stress in its middle `e w' + middle (V_above - V_below)`, drag on the half at a
 /// node `f h/2 + own V_node + other V_opposite`.
 #[derive(Clone, Copy, Debug, Default)]
-struct Seepage {
+pub struct Seepage {
     middle: f64,
     own: f64,
     other: f64,
 }
 
 impl Coupled<'_> {
-    /// Coefficients of element `k` of the bed.
-    fn seepage(&self, k: usize) -> Seepage {
-        let (e, h, permeability) = (self.elements[k].e, self.mesh.size(k), self.k[k]);
-        if k >= self.fitted {
-            return Seepage { middle: e / h, own: 0.5 * h / permeability, other: 0.0 };
-        }
-        let l = (permeability * e).sqrt();
-        let (x, scale) = (h / l, e / l);
-        let middle = 0.5 * scale / (0.5 * x).sinh();
-        Seepage { middle, own: scale / x.tanh() - middle, other: middle - scale / x.sinh() }
+    /// How the fluid feels each element of the bed; the lowest `fitted` ones are fitted to exponentials.
+    #[must_use]
+    pub fn seepages(mesh: &Mesh, elements: &[Element], k: &[f64], fitted: usize) -> Vec<Seepage> {
+        let seepage = |(i, permeability): (usize, &f64)| {
+            let (e, h) = (elements[i].e, mesh.size(i));
+            if i >= fitted {
+                return Seepage { middle: e / h, own: 0.5 * h / permeability, other: 0.0 };
+            }
+            let l = (permeability * e).sqrt();
+            let (x, scale) = (h / l, e / l);
+            let middle = 0.5 * scale / (0.5 * x).sinh();
+            Seepage { middle, own: scale / x.tanh() - middle, other: middle - scale / x.sinh() }
+        };
+        k.iter().enumerate().map(seepage).collect()
     }
 
     /// Fluid stress in the middle of each element.
@@ -101,7 +105,7 @@ impl Coupled<'_> {
             if k >= self.bed {
                 return e * (u[k + 1] - u[k]);
             }
-            let (middle, shear) = (self.seepage(k).middle, w[k + 1] - w[k]);
+            let (middle, shear) = (self.seepages[k].middle, w[k + 1] - w[k]);
             e * shear + middle * (u[k + 1] - u[k] - shear)
         };
         (0..self.elements.len()).map(stress).collect()
@@ -157,11 +161,17 @@ impl Coupled<'_> {
         (self.elements[j - 1].y - above) / (half(j - 1) + drag)
     }
 
-    /// Velocities with the regularised yield stress, from the start `from`.
+    /// Velocities with the regularised yield stress, from the start `from`, until the residual is below `tolerance` or at
+    /// round-off.
     ///
     /// # Errors
     /// [`NotConverged`] if the residual of the momentum does not reach round-off.
-    pub fn creeping(&self, from: &Solved, regularisation: &Regularisation) -> Result<Solved, NotConverged> {
+    pub fn creeping(
+        &self,
+        from: &Solved,
+        regularisation: &Regularisation,
+        tolerance: f64,
+    ) -> Result<Solved, NotConverged> {
         let n = self.elements.len();
         let (mut u, mut w) = (from.u.clone(), from.w.clone());
         let mut ratio: Vec<f64> = (0..self.bed)
@@ -180,7 +190,7 @@ impl Coupled<'_> {
             let residual = self.residual(&u, &w, &tau_p);
             history.push(residual);
             let stalled = iteration > 3 && residual <= 100.0 * ROUND_OFF && residual >= 0.5 * best;
-            if residual <= ROUND_OFF || stalled {
+            if residual <= ROUND_OFF.max(tolerance) || stalled {
                 return Ok(Solved { u, w, tau_p, history });
             }
             best = best.min(residual);
@@ -207,7 +217,7 @@ impl Coupled<'_> {
 
     /// Drag on the half of element `k` at its upper or lower node.
     fn drag(&self, k: usize, upper: bool, u: &[f64], w: &[f64]) -> f64 {
-        let Seepage { own, other, .. } = self.seepage(k);
+        let Seepage { own, other, .. } = self.seepages[k];
         let v = |j: usize| u[j] - w[j] - self.k[k] * self.f;
         let (here, opposite) = if upper { (v(k + 1), v(k)) } else { (v(k), v(k + 1)) };
         0.5 * self.f * self.mesh.size(k) + own * here + other * opposite
@@ -255,7 +265,7 @@ impl Coupled<'_> {
         // Derivative of the fluid stress of an element with respect to the steps of U and of w.
         let fluid = |k: usize| {
             let e = self.elements[k].e / self.mesh.size(k);
-            let middle = if k < self.bed { self.seepage(k).middle } else { e };
+            let middle = if k < self.bed { self.seepages[k].middle } else { e };
             (middle, e - middle)
         };
         for j in 1..n {
@@ -270,8 +280,8 @@ impl Coupled<'_> {
                 row.upper = Matrix2::new(u1, 0.0, 0.0, 0.0);
                 continue;
             }
-            let below = self.seepage(j - 1);
-            let above = if j < self.bed { self.seepage(j) } else { Seepage::default() };
+            let below = self.seepages[j - 1];
+            let above = if j < self.bed { self.seepages[j] } else { Seepage::default() };
             let own = below.own + above.own;
             row.lower = Matrix2::new(u0, w0 + t0, below.other, t0 - below.other);
             row.diagonal = Matrix2::new(-u0 - u1, -w0 - w1 - t0 - t1, own, -t0 - t1 - own);

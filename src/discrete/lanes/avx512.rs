@@ -204,8 +204,7 @@ impl Lanes for Eight {
             let turned = sides([columns[0].0, columns[1].0, columns[2].0, _mm512_setzero_pd()]);
             for l in 0..count {
                 let value = turned[l & 3];
-                let half =
-                    if l < 4 { _mm512_castpd512_pd256(value) } else { _mm512_extractf64x4_pd::<1>(value) };
+                let half = if l < 4 { _mm512_castpd512_pd256(value) } else { _mm512_extractf64x4_pd::<1>(value) };
                 _mm256_store_pd(rows.as_mut_ptr().add(*at.add(l) as usize).cast(), half);
             }
         }

@@ -119,7 +119,9 @@ impl Lanes for One {
     unsafe fn put(columns: [Self; 3], rows: &mut [Row], at: *const u64, count: usize) {
         if count > 0 {
             // SAFETY: the caller has one index, inside the rows.
-            unsafe { *rows.get_unchecked_mut(at.read() as usize) = Row([columns[0].0, columns[1].0, columns[2].0, 0.0]) }
+            unsafe {
+                *rows.get_unchecked_mut(at.read() as usize) = Row([columns[0].0, columns[1].0, columns[2].0, 0.0])
+            }
         }
     }
     #[inline(always)]

@@ -18,7 +18,7 @@ pub fn run(bed: &LaminarBed, cells: usize, watch: &mut dyn Watch) -> Result<Outc
     let mut history = Vec::new();
     let solution = solve(bed, |r| history.push(r))?;
     let profile = tabulate(levels(&solution, bed, cells), &columns(&solution, bed), watch)?;
-    let numbers = numbers(&solution);
+    let numbers = numbers(&solution, bed.phi);
     outcome(profile, history, numbers.results(bed), balances(&solution), numbers.validity(bed))
 }
 
@@ -74,11 +74,12 @@ fn columns<'a>(solution: &'a Solution, bed: &'a LaminarBed) -> Vec<Column<'a>> {
 }
 
 /// The numbers that the closed form comes down to.
-fn numbers(solution: &Solution) -> BedNumbers {
+fn numbers(solution: &Solution, phi: f64) -> BedNumbers {
     let Scaled { f, h_p, .. } = solution.scaled;
     BedNumbers {
         f,
-        flux: solution.flux(),
+        flux: phi * solution.flux(),
+        phi_interface: phi,
         discharge: solution.discharge(),
         tau: solution.tau_interface,
         h_c: solution.h_c,

@@ -1,0 +1,73 @@
+//! `bedload converge`: the error over regularisation or mesh, and its order.
+
+use clap::{Args, ValueEnum};
+
+use super::study::StudyArgs;
+use super::{CaseArgs, CliError};
+use crate::study::converge::{self, Request};
+
+/// How fast the error of a case falls: against exact or finest, with the observed order.
+#[derive(Debug, Args)]
+pub(super) struct Converge {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// What is refined
+    #[arg(long, value_enum)]
+    over: Over,
+    /// What the error is measured against [default: exact where there is a closed form or an exact yield]
+    #[arg(long, value_enum)]
+    reference: Option<Reference>,
+    /// Points between the decades of the regularisation, too
+    #[arg(long)]
+    half_decades: bool,
+    #[command(flatten)]
+    pub(super) study: StudyArgs,
+}
+
+/// [`converge::Over`] on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+enum Over {
+    /// Size of the regularisation of the yield stress, from 1e-1 to 1e-12, for each law
+    Regularisation,
+    /// Number of cells, with a node on the yield level and without
+    Mesh,
+}
+
+/// [`converge::Reference`] on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Reference {
+    /// The exact yield on the same mesh; the closed form for meshes
+    Exact,
+    /// The smallest regularisation of each law; a mesh of twice the finest
+    Finest,
+}
+
+impl Converge {
+    pub(super) fn execute(self) -> Result<(), CliError> {
+        let over = match self.over {
+            Over::Regularisation => converge::Over::Regularisation,
+            Over::Mesh => converge::Over::Mesh,
+        };
+        if self.half_decades && self.over == Over::Mesh {
+            let message = "--half-decades is for --over regularisation".to_owned();
+            return Err(CliError::Usage { message, hint: "meshes are doubled".into() });
+        }
+        let mut options = vec![format!("--over {}", over.name())];
+        options.extend(
+            self.reference.and_then(|r| r.to_possible_value()).map(|v| format!("--reference {}", v.get_name())),
+        );
+        options.extend(self.half_decades.then(|| "--half-decades".to_owned()));
+        let request = Request {
+            case: self.case.case.clone(),
+            overrides: self.case.overrides.clone(),
+            over,
+            reference: self.reference.map(|reference| match reference {
+                Reference::Exact => converge::Reference::Exact,
+                Reference::Finest => converge::Reference::Finest,
+            }),
+            half_decades: self.half_decades,
+        };
+        let (plan, judge) = converge::plan(&request)?;
+        self.study.conduct(&self.case, &plan, judge, &options)
+    }
+}

@@ -1,0 +1,147 @@
+//! What all studies have in common on the command line: where they go, how they run, what they say in the end.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+
+use clap::Args;
+use serde_json::{Value, json};
+
+use super::progress::Progress;
+use super::{CaseArgs, CliError, answer, say, word};
+use crate::output::Mode;
+use crate::result::{ErrorReport, Snapshot, Status, Watch};
+use crate::runtime::interrupt;
+use crate::study::converge::Judge;
+use crate::study::{Conducted, Observer, Plan, Settings, conduct};
+
+/// How a study is conducted.
+#[derive(Debug, Args)]
+pub(super) struct StudyArgs {
+    /// Folder to write [default: runs/<verb>-CASE]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    /// Threads to use [default: all processors]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    threads: Option<u16>,
+    /// Draw the figures as PNG, too
+    #[arg(long)]
+    png: bool,
+    /// No progress and no closing lines
+    #[arg(long)]
+    quiet: bool,
+    /// Print study.json as one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Replace whatever study the folder holds
+    #[arg(long)]
+    force: bool,
+    /// Keep the points of the same study that are done
+    #[arg(long)]
+    resume: bool,
+}
+
+/// Shows how many points are done, and listens for Ctrl-C.
+struct Shown(Mutex<Progress>);
+
+impl Observer for Shown {
+    fn stop(&self) -> bool {
+        interrupt::asked()
+    }
+
+    fn done(&self, done: usize, all: usize) {
+        if let Ok(mut progress) = self.0.lock() {
+            let fraction = done as f64 / all.max(1) as f64;
+            // Each point asks for itself whether to stop.
+            let _ = progress.see(&Snapshot { stage: "points", fraction, quantity: None });
+        }
+    }
+}
+
+impl StudyArgs {
+    /// Conducts a study and says what came of it; `options` are the arguments of its verb.
+    pub fn conduct(&self, case: &CaseArgs, plan: &Plan, judge: Judge, options: &[String]) -> Result<(), CliError> {
+        let sets = case.overrides.iter().map(|set| format!("--set {}", word(set)));
+        let words = ["bedload".to_owned(), plan.verb.into(), word(&case.case)].into_iter().chain(sets);
+        let command = words.chain(options.iter().cloned()).collect::<Vec<_>>().join(" ");
+        let shown = Shown(Mutex::new(Progress::new(self.quiet)));
+        let settings = Settings {
+            out: self.out.clone(),
+            mode: Mode { force: self.force, resume: self.resume },
+            threads: self.threads.map_or(0, usize::from),
+            png: self.png,
+            command,
+            observer: &shown,
+        };
+        let found = conduct(plan, &settings, judge)?;
+        let command = settings.command;
+        drop(shown);
+        let mut value = found.record.clone();
+        if let Value::Object(object) = &mut value {
+            object.insert("out".into(), found.out.display().to_string().into());
+        }
+        match found.status {
+            Status::Failed => {
+                let error = every_point(&found);
+                if let Value::Object(object) = &mut value {
+                    object.insert("error".into(), json!(error));
+                }
+                Err(CliError::Failed(error, Some(value)))
+            }
+            Status::Stopped => Err(CliError::Stopped(value, found.kept)),
+            _ if self.json => Ok(answer(&value)?),
+            _ if self.quiet => Ok(()),
+            _ => {
+                let out = self.out.as_ref().map(|out| format!(" --out {}", word(&out.display().to_string())));
+                Ok(say(&closing(plan, &found, &(command + &out.unwrap_or_default())))?)
+            }
+        }
+    }
+}
+
+/// Why there is nothing: that of the first point.
+fn every_point(found: &Conducted) -> ErrorReport {
+    let first = found.rows.iter().find_map(|row| row.error.clone());
+    let message = first.as_ref().map(|e| e.message.clone()).unwrap_or_default();
+    ErrorReport {
+        code: first.as_ref().map_or_else(|| "failed".into(), |e| e.code.clone()),
+        message: format!("every point fails, the first because {message}"),
+        path: None,
+        line: None,
+        allowed: None,
+        hint: first.and_then(|e| e.hint),
+    }
+}
+
+/// What a reader wants to know first, in at most twelve lines.
+fn closing(plan: &Plan, found: &Conducted, command: &str) -> String {
+    const MOST: usize = 7;
+    let failed: Vec<_> = found.rows.iter().filter(|row| row.status == Status::Failed).collect();
+    let mut counts = format!("{} points, {} done", found.rows.len(), found.rows.len() - failed.len());
+    if found.resumed > 0 {
+        counts += &format!(" ({} before)", found.resumed);
+    }
+    let mut lines = vec![format!("{} {}: {counts}", plan.verb, plan.case)];
+    let mut line = |label: &str, text: String| lines.push(format!("  {label:<24} {text}"));
+    for (label, text) in found.judgement.findings.iter().take(MOST) {
+        line(label, text.clone());
+    }
+    if let Some(first) = failed.first() {
+        let text = format!(
+            "{} of {}, first {}: {}",
+            failed.len(),
+            found.rows.len(),
+            first.point.name(&plan.varied),
+            first.reason()
+        );
+        line("failed", text);
+    }
+    let cost = &found.cost;
+    line("cost", format!("{:.1} ms to solve, {:.0} ms in all", 1e3 * cost.solve_s, 1e3 * cost.total_s));
+    line("report", format!("{}/report.html", found.out.display()));
+    if found.figures.is_empty() {
+        line("next", format!("{command} --resume --png"));
+    } else {
+        line("figures", format!("{}/figures/", found.out.display()));
+    }
+    lines.join("\n") + "\n"
+}

@@ -1,0 +1,27 @@
+//! `bedload sweep`: one case over a grid of values.
+
+use clap::Args;
+
+use super::study::StudyArgs;
+use super::{CaseArgs, CliError, word};
+use crate::study::sweep;
+
+/// Run a case over values of one key or a grid of several: a table of all results, and a figure.
+#[derive(Debug, Args)]
+pub(super) struct Sweep {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// table.key=a,b,c or table.key=from:to:count[:log], with a unit at the end; repeated, a grid
+    #[arg(long, value_name = "KEY=VALUES", required = true)]
+    over: Vec<String>,
+    #[command(flatten)]
+    pub(super) study: StudyArgs,
+}
+
+impl Sweep {
+    pub(super) fn execute(self) -> Result<(), CliError> {
+        let (plan, judge) = sweep::plan(&self.case.case, &self.case.overrides, &self.over)?;
+        let options: Vec<String> = self.over.iter().map(|over| format!("--over {}", word(over))).collect();
+        self.study.conduct(&self.case, &plan, judge, &options)
+    }
+}

@@ -1,0 +1,147 @@
+//! The folder of a study: `study.json`, `points.csv`, `report.html`, figures on demand, and one run folder per point.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::Value;
+
+use super::comparison;
+use super::folder::{self, FIGURES, Folder, Mode, OutputError, entries, holds_only, read_summary};
+use super::run::draw_png;
+use crate::plot::Figure;
+use crate::result::Status;
+
+/// Files that the folder of a study may hold; anything else in it is not ours.
+pub(super) const OURS: &[&str] = &[RECORD, TABLE, "report.html", FIGURES, POINTS];
+/// Everything that a study has to say; the folder is known by it.
+const RECORD: &str = "study.json";
+const TABLE: &str = "points.csv";
+/// The folder of the run folders.
+pub(super) const POINTS: &str = "points";
+
+/// What tells one study from another, and how it ended.
+#[derive(Deserialize)]
+struct Record {
+    plan_sha256: String,
+    status: Status,
+    command: String,
+}
+
+fn read(folder: &Path) -> Option<Record> {
+    serde_json::from_str(&fs::read_to_string(folder.join(RECORD)).ok()?).ok()
+}
+
+/// Whether a folder holds a study.
+pub(super) fn stands_in(folder: &Path) -> bool {
+    read(folder).is_some()
+}
+
+/// The folder of a study that is being made.
+#[derive(Debug)]
+pub struct StudyFolder(Folder);
+
+impl StudyFolder {
+    /// Prepares `target` for the study whose plan has the fingerprint `plan`. The same study, finished, is replaced; an
+    /// unfinished one goes on where it stands with `--resume`; another one gives way to `--force` only.
+    ///
+    /// # Errors
+    /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
+    pub fn prepare(target: &Path, plan: &str, mode: Mode) -> Result<Self, OutputError> {
+        if mode.resume && !mode.force && read(target).is_some_and(|record| record.plan_sha256 == plan) {
+            holds_study_only(target)?;
+            clear(&target.join(POINTS));
+            return Ok(Self(Folder::go_on(target)));
+        }
+        Folder::claim(target, |folder| may_replace(folder, plan, mode)).map(Self)
+    }
+
+    /// Where the run of the resolved case with this fingerprint is being written.
+    #[must_use]
+    pub fn point(&self, sha256: &str) -> PathBuf {
+        self.0.place(&Self::point_name(sha256))
+    }
+
+    /// Name of that folder inside the study.
+    #[must_use]
+    pub fn point_name(sha256: &str) -> String {
+        format!("{POINTS}/{}", sha256.get(..16).unwrap_or(sha256))
+    }
+
+    /// Marks the folder as being computed, so that it is known as ours whatever happens next.
+    ///
+    /// # Errors
+    /// [`OutputError::Interrupted`] with the file that cannot be written.
+    pub fn begin(&self, record: &Value) -> Result<(), OutputError> {
+        self.0.write(RECORD, |to| writeln!(to, "{record:#}"))?;
+        let points = self.0.place(POINTS);
+        fs::create_dir_all(&points).map_err(|error| OutputError::Interrupted { path: points, error })
+    }
+
+    /// Writes table, page and figures, the record last, and puts the study in its place. Returns the figures that were drawn
+    /// as PNG, and whether the folder still holds the finished study that it held before.
+    ///
+    /// # Errors
+    /// [`OutputError::Interrupted`] with the file that cannot be written.
+    pub fn finish(
+        self,
+        (status, record): (Status, &Value),
+        table: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+        page: &str,
+        figures: &[Figure],
+        png: bool,
+    ) -> Result<(Vec<PathBuf>, bool), OutputError> {
+        let Self(folder) = self;
+        folder.write(TABLE, table)?;
+        folder.write("report.html", |to| to.write_all(page.as_bytes()))?;
+        let drawn = if png { draw_png(&folder.place("."), folder.path(), figures)? } else { Vec::new() };
+        folder.write(RECORD, |to| writeln!(to, "{record:#}"))?;
+        // Ctrl-C loses nothing: what is only begun does not replace what is done.
+        let kept = status == Status::Stopped && folder.over_finished();
+        if !kept {
+            folder.finish()?;
+        }
+        Ok((drawn, kept))
+    }
+}
+
+fn may_replace(folder: &Path, plan: &str, mode: Mode) -> Result<Status, OutputError> {
+    let Some(record) = read(folder) else {
+        // A run or a comparison is ours as well, but no study takes its place.
+        let holds = if comparison::stands_in(folder) { "comparison" } else { read_summary(folder).map(|_| "run")? };
+        return Err(OutputError::OtherKind { folder: folder.into(), holds, wanted: "study" });
+    };
+    holds_study_only(folder)?;
+    match record.status {
+        status if mode.force => Ok(status),
+        _ if record.plan_sha256 != plan => Err(OutputError::OtherStudy { folder: folder.into(), of: record.command }),
+        Status::Done => Ok(Status::Done),
+        status => Err(OutputError::UnfinishedStudy { folder: folder.into(), status }),
+    }
+}
+
+/// Removes what a killed study left of points that had no summary yet. What cannot be removed is refused as a run folder.
+fn clear(points: &Path) {
+    for (name, _) in entries(points).unwrap_or_default() {
+        let place = points.join(&name);
+        if name.starts_with('.') || read_summary(&place).is_err() {
+            let _ = fs::remove_dir_all(place);
+        }
+    }
+}
+
+/// Whether a study folder and the run folders in it hold nothing but what we wrote.
+fn holds_study_only(folder: &Path) -> Result<(), OutputError> {
+    holds_only(folder, OURS)?;
+    let points = folder.join(POINTS);
+    for (name, is_folder) in entries(&points).unwrap_or_default() {
+        let between_two = name.starts_with('.') && (name.contains(".new-") || name.contains(".old-"));
+        let named = name.len() == 16 && name.chars().all(|c| c.is_ascii_hexdigit());
+        if !is_folder || !(named || between_two) {
+            return Err(OutputError::Foreign { folder: folder.into(), entry: format!("{POINTS}/{name}") });
+        }
+        holds_only(&points.join(name), folder::OURS)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,133 @@
+//! `converge`: the error against exact, finest or closed form, and its order.
+
+use super::errors::Focus;
+use super::{Judgement, Plan, Row, StudyError, mesh, regularisation};
+use crate::plot::{Curve, Dash, Marker};
+use crate::problem::Problem;
+
+/// What is refined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Over {
+    /// size of the regularisation of the yield stress, for each of its laws
+    Regularisation,
+    /// number of cells, with and without a node on the yield level
+    Mesh,
+}
+
+/// What the error is measured against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reference {
+    /// the exact yield on the same mesh, or the closed form of the exact yield
+    Exact,
+    /// the smallest regularisation of each law, or a mesh of twice the finest one
+    Finest,
+}
+
+/// What the user asks for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// file or shipped case
+    pub case: String,
+    /// `--set` arguments
+    pub overrides: Vec<String>,
+    /// what is refined
+    pub over: Over,
+    /// what the error is measured against; by default exact, where there is such a thing
+    pub reference: Option<Reference>,
+    /// whether the regularisation has points between the decades
+    pub half_decades: bool,
+}
+
+/// Reads what the rows say.
+pub type Judge = Box<dyn FnOnce(&[Row]) -> Judgement>;
+
+impl Over {
+    /// As on the command line.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Regularisation => "regularisation",
+            Self::Mesh => "mesh",
+        }
+    }
+}
+
+/// The plan of a convergence study, and how to judge it.
+///
+/// # Errors
+/// [`StudyError::Case`], and [`StudyError::NoSuchSetting`] or [`StudyError::NoClosedForm`] for a model that has none.
+pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
+    let (case, problem) = Problem::load(&request.case, &request.overrides).map_err(Box::new)?;
+    let Some(focus) = Focus::of(&problem) else {
+        let (over, model) = (request.over.name(), case.model.to_owned());
+        return Err(StudyError::NoSuchSetting { over, model, allowed: "laminar and bingham" });
+    };
+    let plan = |reference: &str, varied: &str, points| Plan {
+        verb: "converge",
+        case: request.case.clone(),
+        overrides: request.overrides.clone(),
+        options: vec![("over".into(), request.over.name().into()), ("reference".into(), reference.into())],
+        varied: vec![varied.to_owned()],
+        points,
+    };
+    match request.over {
+        Over::Regularisation => {
+            let reference = request.reference.unwrap_or(Reference::Exact);
+            let points = regularisation::points(reference, request.half_decades);
+            let judge = move |rows: &[Row]| regularisation::judge(&focus, reference, rows);
+            Ok((plan(reference.name(), regularisation::KEY, points), Box::new(judge)))
+        }
+        Over::Mesh => {
+            let form = mesh::ClosedForm::of(&problem);
+            let closed = match (request.reference, form) {
+                (Some(Reference::Finest), _) | (None, None) => None,
+                (_, Some(form)) => Some(form),
+                (Some(Reference::Exact), None) => {
+                    return Err(StudyError::NoClosedForm { model: format!("{} with this friction law", case.model) });
+                }
+            };
+            let reference = if closed.is_some() { Reference::Exact } else { Reference::Finest };
+            let points = mesh::points(reference);
+            let judge = move |rows: &[Row]| mesh::judge(&focus, closed.as_ref(), rows);
+            Ok((plan(reference.name(), mesh::KEY, points), Box::new(judge)))
+        }
+    }
+}
+
+impl Reference {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Finest => "finest",
+        }
+    }
+}
+
+/// A curve of errors with a marker at each point; series `i` has one colour and one marker in all panels.
+pub(super) fn curve(name: &str, i: usize, points: impl Iterator<Item = (f64, Option<f64>)>) -> Curve {
+    Curve {
+        name: name.into(),
+        points: points.map(|(x, e)| e.map(|e| (x, e))).collect(),
+        colour: i,
+        line: Some([Dash::Solid, Dash::Dashed, Dash::DashDotted, Dash::Dotted][i % 4]),
+        marker: Some([Marker::Circle, Marker::Square, Marker::Triangle][i % 3]),
+    }
+}
+
+/// A line without markers.
+pub(super) fn line(name: String, colour: usize, dash: Dash, points: Vec<(f64, f64)>) -> Curve {
+    Curve { name, points: points.into_iter().map(Some).collect(), colour, line: Some(dash), marker: None }
+}
+
+/// An error for readers: `4.71 %` where a per cent says something, `9.2e-7` below.
+pub(super) fn error_text(e: f64) -> String {
+    if e >= 1e-4 { crate::compare::percent(e) } else { format!("{e:.1e}") }
+}
+
+/// Smallest and largest of some slopes: `0.85 to 0.99`.
+pub(super) fn range_text(slopes: impl Iterator<Item = f64>) -> Option<String> {
+    let (low, high) = slopes.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+    // Adding 0 makes -0 a 0.
+    let [a, b] = [low, high].map(|x| format!("{:.2}", (100.0 * x).round() / 100.0 + 0.0));
+    (low <= high).then(|| if a == b { a } else { format!("{a} to {b}") })
+}

@@ -1,0 +1,133 @@
+//! How far a run lies from the truth: norms of the velocity, and the numbers that a user would take from it.
+
+use std::borrow::Cow;
+
+use super::Row;
+use crate::compare::norms::deviation;
+use crate::problem::{BinghamDrive, Model, Problem, RegularisedBed, RegularisedPlane};
+use crate::result::quantity::{self as q, Quantity};
+use crate::result::{Profile, Results};
+
+/// What a study of a model measures, and in which units.
+#[derive(Clone, Debug)]
+pub(super) struct Focus {
+    /// the velocity whose norms are taken
+    pub velocity: &'static Quantity,
+    /// lambda in its unit, as a formula
+    pub lambda: &'static str,
+    /// that unit [1/s]
+    pub shear_unit: f64,
+    /// unit of the root mean squares [m/s]
+    pub velocity_unit: f64,
+    /// the number besides the velocity, and its short name
+    pub number: (&'static Quantity, &'static str),
+    /// whether the velocity of the grains at the bed level is one of the measures
+    pub bed: bool,
+    /// yield stress [Pa] times height over viscosity [m/s], which over a velocity is the Bingham number
+    yield_velocity: f64,
+    /// the Bingham number in words
+    pub bingham: &'static str,
+}
+
+/// Columns of the measures, in this order.
+pub(super) const L2: &str = "error_velocity_l2";
+const LARGEST: &str = "error_velocity_largest";
+pub(super) const RMS: &str = "velocity_rms_scaled";
+pub(super) const RMS_PAPER: &str = "velocity_rms_paper_scaled";
+pub(super) const AT_BED: &str = "error_velocity_at_bed";
+
+/// What a run is compared with.
+pub(super) struct Truth<'a> {
+    /// columns over z [m]
+    pub profile: Cow<'a, Profile>,
+    /// numbers [SI]
+    pub results: &'a Results,
+}
+
+impl Focus {
+    /// What there is to measure in `problem`; `None` for a model that is not solved numerically.
+    pub fn of(problem: &Problem) -> Option<Self> {
+        match &problem.model {
+            Model::Laminar(RegularisedBed { bed, .. }) => Some(Self {
+                velocity: &q::U_PARTICLE,
+                lambda: "λ η/(Δρ g H)",
+                shear_unit: bed.velocity_scale() / bed.h,
+                velocity_unit: bed.velocity_scale(),
+                number: (&q::TRANSPORT_RATE, "transport_rate"),
+                bed: true,
+                // the yield stress of the first layer of grains, as in section 3.2 of the paper
+                yield_velocity: bed.friction.mu_s * (bed.rho_p - bed.rho_f) * bed.g * bed.d * bed.h / bed.eta,
+                bingham: "μ_s (ρ_p - ρ_f) g d H/(η U_m)",
+            }),
+            Model::Bingham(RegularisedPlane { plane, .. }) => Some(Self {
+                velocity: &q::U_MIXTURE,
+                lambda: match plane.drive {
+                    BinghamDrive::MeanVelocity(_) => "λ H/Uₘ",
+                    BinghamDrive::PressureGradient(_) => "λ η/(G H)",
+                },
+                shear_unit: plane.shear_scale(),
+                velocity_unit: plane.shear_scale() * plane.h,
+                number: (&q::PLUG_VELOCITY, "plug_velocity"),
+                bed: false,
+                yield_velocity: plane.tau_0 * plane.h / plane.eta,
+                bingham: "τ_0 H/(η U_m)",
+            }),
+            Model::Ouriemi(_) | Model::BinghamPlane(_) | Model::BagnoldFilm(_) | Model::LogLaw(_) => None,
+            Model::Grains(_) | Model::Impact(_) => None,
+        }
+    }
+
+    /// The Bingham number on the mean velocity of `results`.
+    pub fn bingham_number(&self, results: &Results) -> Option<f64> {
+        results.get(q::MEAN_VELOCITY.name).filter(|u| *u > 0.0).map(|u| self.yield_velocity / u)
+    }
+
+    /// Column of the error of the number.
+    pub fn number_error(&self) -> String {
+        format!("error_{}", self.number.1)
+    }
+
+    /// The columns of measures, one value per row; a row without truth or profile has none.
+    pub fn measures<'a>(
+        &self,
+        rows: &'a [Row],
+        truth: impl Fn(&'a Row) -> Option<Truth<'a>>,
+    ) -> Vec<(String, Vec<Option<f64>>)> {
+        let mut names = vec![L2.to_owned(), LARGEST.into(), RMS.into(), RMS_PAPER.into(), self.number_error()];
+        if self.bed {
+            names.push(AT_BED.into());
+        }
+        let mut columns: Vec<(String, Vec<Option<f64>>)> = names.into_iter().map(|name| (name, Vec::new())).collect();
+        for row in rows {
+            let found = truth(row).and_then(|truth| self.measure(row, &truth)).unwrap_or([None; 6]);
+            for ((_, values), value) in columns.iter_mut().zip(found) {
+                values.push(value.filter(|x| x.is_finite()));
+            }
+        }
+        columns
+    }
+
+    fn measure(&self, row: &Row, truth: &Truth<'_>) -> Option<[Option<f64>; 6]> {
+        let run = row.profile.as_ref()?;
+        let d = deviation(&truth.profile, run, self.velocity)?;
+        let name = self.number.0.name;
+        let relative = |(a, b): (f64, f64)| (a - b).abs() / b.abs();
+        let number = row.result(name).zip(truth.results.get(name)).map(relative);
+        let rms = d.rms / self.velocity_unit;
+        let paper = rms / (d.levels as f64).sqrt();
+        Some([d.l2_relative, d.linf_relative, Some(rms), Some(paper), number, self.at_bed(run, truth).map(relative)])
+    }
+
+    /// Grain velocity at the highest level that has one, in the run and in truth.
+    fn at_bed(&self, run: &Profile, truth: &Truth<'_>) -> Option<(f64, f64)> {
+        let values = run.get(self.velocity).filter(|_| self.bed)?;
+        let top = values.iter().rposition(Option::is_some)?;
+        let z = run.axis().get(top).copied()?;
+        Some((values.get(top).copied().flatten()?, truth.profile.at(self.velocity, z)?))
+    }
+}
+
+/// A column of the measures.
+pub(super) fn column<'a>(measures: &'a [(String, Vec<Option<f64>>)], name: &str) -> &'a [Option<f64>] {
+    measures.iter().find(|(n, _)| n == name).map_or(&[], |(_, values)| values)
+}

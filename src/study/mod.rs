@@ -1,0 +1,210 @@
+//! Studies: one case at many points, run in parallel into ordinary run folders, and what the points say together.
+//!
+//! ```text
+//! converge, sweep ─► Plan (points: overrides of one case) ─► conduct: run, judge, write ─► study.json, points.csv, page
+//! ```
+//!
+//! A verb makes a [`Plan`] and judges its [`Row`]s: measures per point, findings in words, figures. Everything else is the
+//! same for all: [`conduct`] runs the points, skips those that are done, turns a failure into a row, and writes the folder.
+
+pub mod converge;
+mod errors;
+mod mesh;
+pub mod orders;
+mod page;
+pub mod range;
+mod record;
+mod regularisation;
+mod runner;
+pub mod sweep;
+
+use std::path::PathBuf;
+
+use serde_json::{Map, Value};
+
+use crate::case::{CaseError, nearest};
+use crate::output::OutputError;
+use crate::plot::Figure;
+use crate::result::{Cost, ErrorReport, Profile, Results, Status};
+
+pub use runner::{Conducted, Observer, Settings, conduct};
+
+/// What is run: points of one case.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    /// `converge` or `sweep`
+    pub verb: &'static str,
+    /// file or shipped case, as typed
+    pub case: String,
+    /// its `--set` arguments
+    pub overrides: Vec<String>,
+    /// what else was asked for, by option: tells studies of one case apart
+    pub options: Vec<(String, String)>,
+    /// keys that are varied, `table.key`
+    pub varied: Vec<String>,
+    /// in the order of the table
+    pub points: Vec<Point>,
+}
+
+/// One point of a plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// the curve that it lies on; empty where there is only one
+    pub series: String,
+    /// value of each varied key, as it is set; empty where the key has none here
+    pub values: Vec<String>,
+    /// what is changed in the case of the plan, after its own `--set`s
+    pub overrides: Vec<String>,
+}
+
+/// One point with what came of it.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// the point
+    pub point: Point,
+    /// SHA-256 of the resolved case; `None` where the case is refused
+    pub sha256: Option<String>,
+    /// done, failed or stopped
+    pub status: Status,
+    /// why it failed
+    pub error: Option<ErrorReport>,
+    /// its numbers [SI]
+    pub results: Results,
+    /// evaluations of the residual, where something was iterated
+    pub iterations: Option<usize>,
+    /// what it cost when it was run
+    pub cost: Cost,
+    /// columns over z [SI]
+    pub profile: Option<Profile>,
+}
+
+/// What the rows say together.
+#[derive(Clone, Debug, Default)]
+pub struct Judgement {
+    /// a sentence under the title
+    pub subtitle: String,
+    /// columns that the verb adds to each row: name, and one value per row
+    pub measures: Vec<(String, Vec<Option<f64>>)>,
+    /// label and text of what a reader wants to know first
+    pub findings: Vec<(String, String)>,
+    /// the same for programs
+    pub facts: Map<String, Value>,
+    /// drawn in this order
+    pub figures: Vec<Figure>,
+}
+
+/// Why a study cannot be made. Points that fail are rows, not errors.
+#[derive(Debug, thiserror::Error)]
+pub enum StudyError {
+    /// the model has nothing of the kind to vary
+    #[error("{model} has no {over} to converge over: only {allowed} have")]
+    NoSuchSetting {
+        /// what was asked for
+        over: &'static str,
+        /// the model of the case
+        model: String,
+        /// models that have it
+        allowed: &'static str,
+    },
+    /// no closed form to measure against
+    #[error("{model} has no closed form to converge to")]
+    NoClosedForm {
+        /// the model, with what in it has none
+        model: String,
+    },
+    /// an argument of `--over` that cannot be read
+    #[error("--over {argument}: {reason}")]
+    BadOver {
+        /// as typed
+        argument: String,
+        /// what is wrong with it
+        reason: String,
+    },
+    /// the case is wrong at every point
+    #[error(transparent)]
+    Case(#[from] Box<CaseError>),
+    /// the folder is refused, or writing it broke
+    #[error(transparent)]
+    Output(#[from] OutputError),
+    /// the system gives no threads
+    #[error("the system gives no {wanted} threads: {reason}")]
+    Threads {
+        /// how many were asked for
+        wanted: usize,
+        /// what it says
+        reason: String,
+    },
+}
+
+impl StudyError {
+    /// Stable identifier, as in the answer of `--json`.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NoSuchSetting { .. } => "no-such-setting",
+            Self::NoClosedForm { .. } => "no-closed-form",
+            Self::BadOver { .. } => "bad-over",
+            Self::Case(_) => "case",
+            Self::Output(error) => error.code(),
+            Self::Threads { .. } => "no-threads",
+        }
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn hint(&self) -> String {
+        match self {
+            Self::NoSuchSetting { .. } => "give a case of such a model: `bedload list cases`".into(),
+            Self::NoClosedForm { .. } => "--reference finest measures against the finest mesh".into(),
+            Self::BadOver { argument, .. } => over_hint(argument),
+            Self::Case(_) => String::new(),
+            Self::Output(error) => error.hint().unwrap_or_default().into(),
+            Self::Threads { .. } => "ask for fewer with --threads".into(),
+        }
+    }
+}
+
+fn over_hint(argument: &str) -> String {
+    let first = argument.split(['=', '.']).next().unwrap_or_default();
+    let tables = ["fluid", "grains", "bed", "flow", "model", "closures", "regularisation", "grid", "solver"];
+    let near = nearest(first, tables).filter(|near| near != first);
+    let near = near.map(|near| format!("did you mean [{near}]? ")).unwrap_or_default();
+    format!(
+        "{near}give table.key=a,b,c or table.key=from:to:count or table.key=from:to:count:log, with a unit at the end"
+    )
+}
+
+impl Plan {
+    /// The folder that a study of the case `name` goes into unless another is given.
+    #[must_use]
+    pub fn folder(&self, name: &str) -> PathBuf {
+        let variant = self.options.iter().find(|(option, _)| option == "over" && self.verb == "converge");
+        let variant = variant.map(|(_, value)| format!("-{value}")).unwrap_or_default();
+        PathBuf::from("runs").join(format!("{}-{name}{variant}", self.verb))
+    }
+}
+
+impl Row {
+    /// One of its numbers [SI].
+    #[must_use]
+    pub fn result(&self, name: &str) -> Option<f64> {
+        self.results.get(name)
+    }
+
+    /// Why there is nothing, in one sentence; empty if there is something.
+    #[must_use]
+    pub fn reason(&self) -> String {
+        self.error.as_ref().map(|error| error.message.clone()).unwrap_or_default()
+    }
+}
+
+impl Point {
+    /// The point in words: `simple, regularisation.lambda_scaled = 1e-4`.
+    #[must_use]
+    pub fn name(&self, varied: &[String]) -> String {
+        let values = varied.iter().zip(&self.values).filter(|(_, v)| !v.is_empty());
+        let values = values.map(|(key, value)| format!("{key} = {value}"));
+        let series = Some(self.series.clone()).filter(|s| !s.is_empty());
+        series.into_iter().chain(values).collect::<Vec<_>>().join(", ")
+    }
+}

@@ -1,0 +1,83 @@
+//! The page of a study: what was found, the figures, every point, the origin.
+
+use super::record::Head;
+use super::{Judgement, Row};
+use crate::compare::origin;
+use crate::plot::{Cell, Document, Section, document_html};
+use crate::result::{Cost, Provenance, Status, quantity};
+use crate::units::{readable, significant};
+
+/// Results that the table of points shows, where any point has them; all of them are in `points.csv`.
+const SHOWN: &[&quantity::Quantity] = &[
+    &quantity::TRANSPORT_RATE,
+    &quantity::SHIELDS,
+    &quantity::YIELD_LEVEL,
+    &quantity::PLUG_VELOCITY,
+    &quantity::SURFACE_VELOCITY,
+    &quantity::MEAN_VELOCITY,
+];
+
+/// The page as one self-contained HTML document.
+pub(super) fn html(
+    head: &Head<'_>,
+    rows: &[Row],
+    judgement: &Judgement,
+    cost: &Cost,
+    provenance: &Provenance,
+) -> String {
+    let title = format!("{} {}", head.plan.verb, head.name);
+    let found = judgement.findings.iter().map(|(label, text)| vec![label.as_str().into(), text.as_str().into()]);
+    let sections = [
+        Section::Table {
+            heading: "Found",
+            lead: String::new(),
+            head: vec!["what".into(), "result".into()],
+            rows: found.collect(),
+        },
+        Section::Warnings(warnings(head, rows)),
+        Section::Figures(&judgement.figures),
+        points(head, rows, judgement),
+        origin(cost, &Provenance { source: head.command.into(), ..provenance.clone() }),
+    ];
+    document_html(&Document { title: &title, subtitle: &judgement.subtitle, sections: &sections })
+}
+
+/// The points that are missing, and why.
+fn warnings(head: &Head<'_>, rows: &[Row]) -> Vec<String> {
+    let missing = rows.iter().filter(|row| row.status != Status::Done);
+    missing.map(|row| format!("{}: {}.", row.point.name(&head.plan.varied), row.reason())).collect()
+}
+
+fn points(head: &Head<'_>, rows: &[Row], judgement: &Judgement) -> Section<'static> {
+    let shown: Vec<&quantity::Quantity> =
+        SHOWN.iter().copied().filter(|q| rows.iter().any(|row| row.result(q.name).is_some())).collect();
+    let mut heads: Vec<String> = vec!["series".into()];
+    heads.extend(head.plan.varied.iter().cloned());
+    heads.push("status".into());
+    heads.extend(judgement.measures.iter().map(|(name, _)| name.replace('_', " ")));
+    heads.extend(shown.iter().map(|q| q.title.to_owned()));
+    heads.extend(["iterations".to_owned(), "solver".to_owned()]);
+    let cells = rows.iter().enumerate().map(|(i, row)| {
+        let number = |x: Option<f64>, text: &dyn Fn(f64) -> String| {
+            x.map_or(Cell::Empty("no value"), |x| Cell::Number { shown: text(x), full: format!("{x:?}") })
+        };
+        let mut cells: Vec<Cell> = vec![row.point.series.as_str().into()];
+        cells.extend(row.point.values.iter().map(|value| value.as_str().into()));
+        cells.push(Cell::Text(row.status.to_string()));
+        let measures = judgement.measures.iter();
+        cells.extend(measures.map(|(_, all)| number(all.get(i).copied().flatten(), &|x| significant(x, 3))));
+        cells.extend(shown.iter().map(|q| number(row.result(q.name), &|x| readable(x, q.unit))));
+        cells.push(number(row.iterations.map(|n| n as f64), &|n| format!("{n}")));
+        let ran = (row.status == Status::Done).then_some(row.cost.solve_s);
+        cells.push(number(ran, &|s| format!("{:.2} ms", 1e3 * s)));
+        cells
+    });
+    let lead = "Each point is a run folder of its own under points/; all of its results are in points.csv.";
+    Section::Table { heading: "Points", lead: lead.into(), rows: cells.collect(), head: heads }
+}
+
+impl From<&str> for Cell {
+    fn from(text: &str) -> Self {
+        Self::Text(text.into())
+    }
+}

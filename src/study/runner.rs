@@ -1,0 +1,263 @@
+//! Runs the points of a plan in parallel and writes the folder of the study.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::Instant;
+
+use rayon::prelude::*;
+use serde_json::Value;
+
+use super::{Judgement, Plan, Row, StudyError, page, record};
+use crate::case::{Case, CaseError};
+use crate::output::{
+    Folder, Mode, OutputError, StudyFolder, fingerprint, read_run, read_series, write_failure, write_outcome,
+    write_running,
+};
+use crate::problem::Problem;
+use crate::result::{Cost, ErrorReport, Provenance, Results, Snapshot, Status, Watch};
+use crate::runtime::cost::peak_memory_mb;
+
+/// Sees points end, and may ask to stop; called from several threads.
+pub trait Observer: Sync {
+    /// Whether to end with what there is.
+    fn stop(&self) -> bool;
+    /// `done` of `all` points have ended.
+    fn done(&self, done: usize, all: usize);
+}
+
+/// How a study is conducted; none of it changes a result.
+pub struct Settings<'a> {
+    /// folder to write; by default [`Plan::folder`]
+    pub out: Option<PathBuf>,
+    /// what may be done with a folder that is not empty
+    pub mode: Mode,
+    /// threads; 0 for as many as there are processors
+    pub threads: usize,
+    /// whether figures are drawn as PNG, too
+    pub png: bool,
+    /// the command that makes this study
+    pub command: String,
+    /// sees it
+    pub observer: &'a dyn Observer,
+}
+
+/// A study as it stands in its folder.
+#[derive(Debug)]
+pub struct Conducted {
+    /// `study.json`
+    pub record: Value,
+    /// the rows, in the order of the plan
+    pub rows: Vec<Row>,
+    /// what they say
+    pub judgement: Judgement,
+    /// done; failed if every point failed; stopped
+    pub status: Status,
+    /// its folder
+    pub out: PathBuf,
+    /// figures that were drawn as PNG
+    pub figures: Vec<PathBuf>,
+    /// whether the folder still holds the finished study that it held before
+    pub kept: bool,
+    /// points that were taken from an earlier study
+    pub resumed: usize,
+    /// what all of it cost
+    pub cost: Cost,
+}
+
+/// A point with its case, if that can be used.
+struct Loaded {
+    case: Result<(Case, Problem, String), CaseError>,
+    sha256: Option<String>,
+}
+
+/// Runs the points of `plan`, judges them and writes the folder.
+///
+/// # Errors
+/// [`StudyError::Case`] if the case is refused at every point, [`StudyError::Output`], [`StudyError::Threads`].
+pub fn conduct(
+    plan: &Plan,
+    settings: &Settings<'_>,
+    judge: impl FnOnce(&[Row]) -> Judgement,
+) -> Result<Conducted, StudyError> {
+    let start = Instant::now();
+    let mut loaded: Vec<Loaded> = plan.points.iter().map(|point| load(plan, &point.overrides)).collect();
+    let Some(name) = loaded.iter().find_map(|l| l.case.as_ref().ok().map(|(case, ..)| case.name.clone())) else {
+        let first = loaded.drain(..).find_map(|l| l.case.err());
+        let empty = || StudyError::BadOver { argument: String::new(), reason: "there is no point".into() };
+        return Err(first.map_or_else(empty, |error| StudyError::Case(Box::new(error))));
+    };
+    let out = settings.out.clone().unwrap_or_else(|| plan.folder(&name));
+    let identity = identity(plan, &loaded);
+    let folder = StudyFolder::prepare(&out, &identity, settings.mode)?;
+    let threads = rayon::ThreadPoolBuilder::new()
+        .num_threads(settings.threads)
+        .build()
+        .map_err(|error| StudyError::Threads { wanted: settings.threads, reason: error.to_string() })?;
+    let mut provenance = Provenance { source: plan.case.clone(), ..Provenance::of_this_program() };
+    (provenance.overrides, provenance.threads) = (plan.overrides.clone(), threads.current_num_threads());
+    let head = record::Head { plan, name: &name, identity: &identity, command: &settings.command };
+    folder.begin(&head.running(&provenance))?;
+    let (rows, resumed) = threads.install(|| run(plan, loaded, &folder, settings))?;
+    let status = match () {
+        () if rows.iter().any(|row| row.status == Status::Stopped) => Status::Stopped,
+        () if rows.iter().all(|row| row.status == Status::Failed) => Status::Failed,
+        () => Status::Done,
+    };
+    let judgement = judge(&rows);
+    let cost = Cost {
+        solve_s: rows.iter().map(|row| row.cost.solve_s).sum(),
+        total_s: start.elapsed().as_secs_f64(),
+        peak_memory_mb: peak_memory_mb(),
+        work_units: rows.iter().map(|row| row.cost.work_units).sum(),
+    };
+    let written = head.complete(status, &rows, &judgement, &cost, &provenance);
+    let page = page::html(&head, &rows, &judgement, &cost, &provenance);
+    let mut comments: Vec<String> = provenance.lines().into_iter().take(1).collect();
+    comments.extend([settings.command.clone(), format!("started {}", provenance.started_utc)]);
+    let table = |to: &mut dyn std::io::Write| record::write_table(to, plan, &rows, &judgement, &comments);
+    let (figures, kept) = folder.finish((status, &written), table, &page, &judgement.figures, settings.png)?;
+    Ok(Conducted { record: written, rows, judgement, status, out, figures, kept, resumed, cost })
+}
+
+fn load(plan: &Plan, overrides: &[String]) -> Loaded {
+    let overrides = [plan.overrides.as_slice(), overrides].concat();
+    let case = Problem::load(&plan.case, &overrides).map(|(case, problem)| {
+        let resolved = case.resolved();
+        (case, problem, resolved)
+    });
+    let sha256 = case.as_ref().ok().map(|(.., resolved)| fingerprint(resolved));
+    Loaded { case, sha256 }
+}
+
+/// What tells this plan from another: the same points of the same case, value for value.
+fn identity(plan: &Plan, loaded: &[Loaded]) -> String {
+    let mut text = format!("{} {:?} {:?}\n", plan.verb, plan.options, plan.varied);
+    for (point, loaded) in plan.points.iter().zip(loaded) {
+        text += &format!("{} {:?} {:?}\n", point.series, point.values, loaded.sha256);
+    }
+    fingerprint(&text)
+}
+
+/// Runs each different case once; points that resolve to the same case share its run.
+fn run(
+    plan: &Plan,
+    loaded: Vec<Loaded>,
+    folder: &StudyFolder,
+    settings: &Settings<'_>,
+) -> Result<(Vec<Row>, usize), OutputError> {
+    let mut seen = BTreeSet::new();
+    let jobs: Vec<_> =
+        loaded.iter().filter(|one| one.sha256.as_ref().is_some_and(|sha256| seen.insert(sha256))).collect();
+    let (ended, resumed) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let all = jobs.len();
+    let solved = jobs.par_iter().filter_map(|one| Some((one.sha256.as_ref()?, one.case.as_ref().ok()?))).map(
+        |(sha256, case)| {
+            let place = folder.point(sha256);
+            let row = match finished(&place, settings.mode) {
+                Some(row) => {
+                    resumed.fetch_add(1, Ordering::Relaxed);
+                    row
+                }
+                None => solve(case, &place, settings.observer)?,
+            };
+            settings.observer.done(ended.fetch_add(1, Ordering::Relaxed) + 1, all);
+            Ok((sha256.clone(), row))
+        },
+    );
+    let solved: BTreeMap<String, Row> = solved.collect::<Result<_, OutputError>>()?;
+    let rows = plan.points.iter().zip(&loaded).map(|(point, one)| {
+        let row = match (&one.sha256, &one.case) {
+            (Some(sha256), _) => solved.get(sha256).cloned().unwrap_or_else(|| Row::empty(Status::Stopped)),
+            (None, Err(error)) => Row { error: error.reports().into_iter().next(), ..Row::empty(Status::Failed) },
+            (None, Ok(_)) => Row::empty(Status::Failed),
+        };
+        Row { point: point.clone(), sha256: one.sha256.clone(), ..row }
+    });
+    Ok((rows.collect(), resumed.into_inner()))
+}
+
+/// The run in `place`, if it is done and may be taken as it is.
+fn finished(place: &Path, mode: Mode) -> Option<Row> {
+    let (summary, profile) = read_run(place).ok().filter(|_| mode.resume)?;
+    (summary.status == Status::Done).then(|| Row {
+        results: summary.results,
+        iterations: read_series(place).map(|series| series.rows()),
+        cost: summary.cost,
+        profile,
+        ..Row::empty(Status::Done)
+    })
+}
+
+/// Solves one case into its run folder.
+fn solve(
+    (case, problem, resolved): &(Case, Problem, String),
+    place: &Path,
+    observer: &dyn Observer,
+) -> Result<Row, OutputError> {
+    if observer.stop() {
+        return Ok(Row::empty(Status::Stopped));
+    }
+    let start = Instant::now();
+    // The folder of a point is named by its case: whatever run stands in it is an unfinished one of this case.
+    let folder = Folder::prepare(place, resolved, Mode { force: true, resume: true })?;
+    let summary = write_running(&folder, case, problem, 1)?;
+    let solving = Instant::now();
+    let result = crate::run(problem, &mut Listening(observer));
+    let cost = Cost {
+        solve_s: solving.elapsed().as_secs_f64(),
+        total_s: start.elapsed().as_secs_f64(),
+        peak_memory_mb: peak_memory_mb(),
+        work_units: problem.cells as f64,
+    };
+    Ok(match result {
+        Ok(outcome) => {
+            let written = write_outcome(folder, summary, problem, &outcome, cost, false)?.summary;
+            Row {
+                results: written.results,
+                iterations: outcome.series.as_ref().map(|series| series.rows()),
+                cost: written.cost,
+                profile: outcome.profile,
+                ..Row::empty(outcome.status)
+            }
+        }
+        Err(failure) => {
+            let written = write_failure(folder, summary, problem, &failure, cost, false)?.summary;
+            Row { error: written.error, results: written.results, cost: written.cost, ..Row::empty(Status::Failed) }
+        }
+    })
+}
+
+/// Asks a run to stop when the study is asked to.
+struct Listening<'a>(&'a dyn Observer);
+
+impl Watch for Listening<'_> {
+    fn see(&mut self, _: &Snapshot<'_>) -> ControlFlow<()> {
+        if self.0.stop() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    }
+}
+
+impl Row {
+    /// A row of which nothing but its state is known.
+    pub(super) fn empty(status: Status) -> Self {
+        let error = (status == Status::Stopped).then(|| ErrorReport {
+            code: "stopped".into(),
+            message: "stopped by the user".into(),
+            path: None,
+            line: None,
+            allowed: None,
+            hint: None,
+        });
+        Self {
+            point: super::Point { series: String::new(), values: Vec::new(), overrides: Vec::new() },
+            sha256: None,
+            status,
+            error,
+            results: Results::default(),
+            iterations: None,
+            cost: Cost::default(),
+            profile: None,
+        }
+    }
+}
