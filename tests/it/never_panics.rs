@@ -100,6 +100,7 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
     let page = report_html(&Page {
         summary: &summary,
         figures: &figures,
+        picture: None,
         equations: &equations,
         case_toml: &resolved,
         notes: &[],
