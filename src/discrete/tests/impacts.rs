@@ -61,6 +61,8 @@ fn gross_slip_obeys_its_line_at_every_angle_and_spin() {
             let off = (found.tangential - expected).abs();
             assert!(off < (2e-3 + missing) * change, "{e_n} {degrees}: {} {expected}", found.tangential);
             let spin = 2.5 * change / 3e-3;
+            // The arm of the friction is shorter than the radius by the overlap, at most v_n/(w R) of it.
+            let missing = missing + 0.1 * cos / (4206.0 * 3e-3);
             assert!((found.spin / spin - 1.0).abs() < 2e-3 + missing, "{e_n} {degrees}: {} {spin}", found.spin);
             checked += 1;
         }
