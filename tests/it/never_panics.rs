@@ -141,7 +141,7 @@ fn hold(tally: &Tally, Input { text, overrides }: &Input) -> Result<(), TestCase
             count(&tally.failed);
             require!(!failure.error.code().is_empty() && !failure.error.hint().is_empty(), "{failure:?}");
             require!(!failure.to_string().contains("NaN"), "a failure without numbers: {failure}");
-            failure.last.as_deref().map_or(Ok(()), numbers_are_sound)
+            failure.last.as_deref().map_or(Ok(()), |last| numbers_are_sound(&problem, last))
         }
     }
 }
