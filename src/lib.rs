@@ -14,7 +14,7 @@
 //! | [`case`] | case files: text, spans, schema, diagnostics. The only room that knows TOML |
 //! | [`problem`] | checked, immutable values in SI |
 //! | [`column`] | the fluid of one dimension: its momentum among whatever grains |
-//! | [`continuum`] | models |
+//! | [`continuum`], [`discrete`] | models: fields, grains one by one |
 //! | `run` | [`run()`]: the one entry point |
 //! | [`plot`] | figures and pages |
 //! | [`compare`] | several runs and measured profiles side by side |
@@ -38,6 +38,7 @@ pub mod closures;
 pub mod column;
 pub mod compare;
 pub mod continuum;
+pub mod discrete;
 pub mod numerics;
 pub mod output;
 pub mod plot;

@@ -1,10 +1,12 @@
 //! From a problem to an outcome: the one entry point that the command line and every study call.
 
+use crate::closures::contact::linear_spring;
 use crate::closures::dilatancy::{phi_i, phi_iv};
 use crate::closures::drag::{carman_kozeny, dallavalle};
 use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::{laminar, sheet_flow};
+use crate::discrete::{bed as grain_bed, impact};
 use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
 
@@ -25,6 +27,8 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::Laminar(bed) => laminar::run(bed, problem.cells, watch),
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
         Model::SheetFlow(flow) => sheet_flow::run(flow, problem.cells, watch),
+        Model::Grains(bed) => grain_bed::run(bed, watch),
+        Model::Impact(one) => impact::run(one, watch),
     };
     outcome?.trusted(LARGEST_IMBALANCE)
 }
@@ -40,6 +44,8 @@ pub fn equations(problem: &Problem) -> String {
         Model::Laminar(bed) => laminar::equations(bed),
         Model::Bingham(plane) => laminar::bingham_equations(plane),
         Model::SheetFlow(flow) => sheet_flow::equations(flow),
+        Model::Grains(bed) => grain_bed::equations(bed),
+        Model::Impact(one) => impact::equations(one),
     }
 }
 
@@ -55,6 +61,7 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
+        Model::Grains(_) | Model::Impact(_) => vec![&linear_spring::INFO],
         Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
         Model::SheetFlow(flow) => vec![
             &friction::mu_i::INFO,

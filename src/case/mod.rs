@@ -6,10 +6,12 @@
 //!
 //! The schema is generated from the structs in [`tables`], and the same schema checks the files, so the two cannot drift.
 
+mod advice;
 pub mod checks;
 mod diagnose;
 mod document;
 mod fault;
+pub mod grain_tables;
 mod load;
 mod reference;
 mod render;

@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::checks::Check;
+use super::grain_tables::{
+    Discrete, GrainBed, GrainClosures, GrainFlow, GrainsModel, ImpactFlow, ImpactModel, ImpactSteps,
+};
 use super::sheet::{SheetBed, SheetClosures, SheetFlowTable, SheetGrid, SheetModel, SheetRegularisation, SheetSolver};
 use super::tables::{
     About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamKindModel, BinghamModel, Film, FilmClosures, FilmFlow,
@@ -190,6 +193,35 @@ scenes! {
         /// The iteration.
         #[serde(default)]
         solver: SheetSolver,
+    }
+    /// A bed of spheres with friction, grain by grain, at rest or down a slope.
+    GrainsBed ("grains") {
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: GrainBed,
+        /// The channel and its tilt.
+        flow: GrainFlow,
+        /// The model.
+        model: GrainsModel,
+        /// Laws.
+        closures: GrainClosures,
+        /// How grains are moved and averaged.
+        discrete: Discrete,
+    }
+    /// The impact of one sphere on a wall or another sphere, next to its closed form.
+    Impact ("impact") {
+        /// The grains.
+        grains: Grains,
+        /// The impact.
+        flow: ImpactFlow,
+        /// The model.
+        model: ImpactModel,
+        /// Laws.
+        closures: GrainClosures,
+        /// How finely it is followed.
+        #[serde(default)]
+        discrete: ImpactSteps,
     }
 }
 

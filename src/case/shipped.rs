@@ -15,6 +15,14 @@ pub static CASES: &[(&str, &str)] = shipped![
     "exact_1d_loglaw",
     "exact_1d_ouriemi",
     "exact_1d_ouriemi_mixed",
+    "grains_2d_column",
+    "grains_3d_bed",
+    "grains_3d_bed_quick",
+    "grains_3d_chute",
+    "impact_1d_headon",
+    "impact_1d_headon_tension",
+    "impact_2d_oblique",
+    "impact_2d_spinning",
     "laminar_1d_aussillous",
     "laminar_1d_muiv",
     "laminar_1d_ouriemi",
@@ -30,6 +38,11 @@ pub static CASES: &[(&str, &str)] = shipped![
 #[must_use]
 pub fn find(name: &str) -> Option<&'static str> {
     CASES.iter().find(|(n, _)| *n == name).map(|(_, content)| *content)
+}
+
+/// Names of the shipped cases that take less than a second or so: the others follow many grains for long.
+pub fn quick() -> impl Iterator<Item = &'static str> {
+    names().filter(|name| !name.starts_with("grains_"))
 }
 
 /// Names of the shipped cases.

@@ -1,16 +1,21 @@
 //! `bedload run`: solve a case and write its folder.
 
-use std::path::PathBuf;
-use std::time::Instant;
+use std::fs;
+use std::io;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use clap::Args;
 use serde_json::Value;
 
 use super::progress::Progress;
 use super::{CaseArgs, CliError, answer, say};
-use crate::output::{Folder, Mode, Written, write_failure, write_outcome, write_running};
-use crate::result::{Cost, Status, Summary, quantity};
-use crate::runtime::cost::peak_memory_mb;
+use crate::discrete::bed::accepts;
+use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
+use crate::problem::{Model, Problem};
+use crate::result::{Cost, Snapshot, Status, Summary, Watch, quantity};
+use crate::runtime::{cost::peak_memory_mb, pool};
 use crate::units::{readable, significant};
 
 /// Solve a case and write its folder: numbers, tables, report.
@@ -46,14 +51,19 @@ impl Run {
         let start = Instant::now();
         let (case, problem) = self.case.load()?;
         // Listening begins before there is anything that Ctrl-C could leave half done.
-        let mut progress = Progress::new(self.quiet);
+        let progress = Progress::new(self.quiet);
         let out = self.out.unwrap_or_else(|| PathBuf::from("runs").join(&case.name));
         let mode = Mode { force: self.force, resume: self.resume };
+        let checkpoint = if self.resume { Self::checkpoint(&out, &problem)? } else { None };
+        pool::want(usize::from(self.threads));
         let folder = Folder::prepare(&out, &case.resolved(), mode)?;
         let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
         let solving = Instant::now();
-        let result = crate::run(&problem, &mut progress);
-        drop(progress);
+        let going_on = checkpoint.is_some();
+        let next = Instant::now() + BETWEEN_CHECKPOINTS;
+        let mut keeper = Keeper { progress, folder: &folder, checkpoint, going_on, next };
+        let result = crate::run(&problem, &mut keeper);
+        drop(keeper);
         let solve_s = solving.elapsed().as_secs_f64();
         let cost = Cost {
             solve_s,
@@ -76,6 +86,54 @@ impl Run {
             _ if self.quiet => Ok(()),
             _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.as_typed()))?),
         }
+    }
+}
+
+impl Run {
+    /// The checkpoint of the unfinished run in `out`, if there is one; one that cannot be used is refused.
+    fn checkpoint(out: &Path, problem: &Problem) -> Result<Option<Vec<u8>>, CliError> {
+        let Model::Grains(bed) = &problem.model else { return Ok(None) };
+        let Ok(bytes) = fs::read(out.join(CHECKPOINT)) else { return Ok(None) };
+        accepts(bed, &bytes).map(|()| Some(bytes)).map_err(|error| CliError::Usage {
+            message: format!("{}: {error}", out.join(CHECKPOINT).display()),
+            hint: "--force starts again".into(),
+        })
+    }
+}
+
+/// Time between two checkpoints that are not asked for.
+const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(10);
+
+/// Shows the progress, and keeps the files of the run as they come.
+struct Keeper<'a> {
+    progress: Progress,
+    folder: &'a Folder,
+    checkpoint: Option<Vec<u8>>,
+    going_on: bool,
+    next: Instant,
+}
+
+impl Watch for Keeper<'_> {
+    fn see(&mut self, snapshot: &Snapshot<'_>) -> ControlFlow<()> {
+        self.progress.see(snapshot)
+    }
+
+    fn keep(&mut self, name: &str, now: bool, content: &mut dyn FnMut() -> Vec<u8>) -> io::Result<()> {
+        if !now && Instant::now() < self.next {
+            return Ok(());
+        }
+        let bytes = content();
+        let written = if name == CHECKPOINT {
+            self.next = Instant::now() + BETWEEN_CHECKPOINTS;
+            self.folder.write_checkpoint(&bytes, self.going_on)
+        } else {
+            self.folder.write(name, |to| to.write_all(&bytes))
+        };
+        written.map_err(io::Error::other)
+    }
+
+    fn resumed(&mut self, name: &str) -> Option<Vec<u8>> {
+        if name == CHECKPOINT { self.checkpoint.take() } else { None }
     }
 }
 
@@ -124,6 +182,10 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
 
 /// What the transport rate is worth.
 fn trust(summary: &Summary) -> String {
+    let known = summary.results.iter().find(|(name, _)| *name == quantity::TRANSPORT_RATE.name);
+    if let Some(error) = known.and_then(|(_, reported)| reported.stderr) {
+        return format!("± {}", readable(error, quantity::TRANSPORT_RATE.unit));
+    }
     let lambda = |key: &str| summary.regularisation.get(key).and_then(Value::as_f64);
     let lambda = lambda("lambda_scaled").or_else(|| lambda("lambda_1_s"));
     match (summary.results.get(quantity::REGULARISATION_RATE.name), lambda) {
@@ -140,5 +202,7 @@ const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
     &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],
     &[&quantity::BINGHAM, &quantity::HALF_PLUG, &quantity::PLUG_VELOCITY],
+    &[&quantity::PHI_BULK, &quantity::BED_LEVEL, &quantity::COORDINATION],
+    &[&quantity::RESTITUTION, &quantity::CONTACT_TIME, &quantity::TANGENTIAL_VELOCITY],
     &[&quantity::SURFACE_VELOCITY, &quantity::INERTIAL_NUMBER_FILM, &quantity::ROUGHNESS_LENGTH],
 ];

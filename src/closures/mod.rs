@@ -4,6 +4,7 @@
 //! an `enum` tagged by `law = "..."`; each file holds the equation, its symbols with units, the source, the range of
 //! validity, the implementation, and tests of its limits. `docs/adding-a-closure.md` walks through one.
 
+pub mod contact;
 pub mod dilatancy;
 pub mod drag;
 pub mod friction;
@@ -103,6 +104,7 @@ pub static CATALOGUE: &[&Info] = &[
     &side_wall::graf_altinakar_published::INFO,
     &side_wall::graf_altinakar::INFO,
     &side_wall::blasius::INFO,
+    &contact::linear_spring::INFO,
 ];
 
 #[cfg(test)]

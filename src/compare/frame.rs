@@ -53,6 +53,8 @@ const UNITS: &[(&str, [i32; 3], &str)] = &[
     ("Pa", [0, 0, 1], "τ(hₚ)"),
     ("Pa/m", [-1, 0, 1], "τ(hₚ)/H"),
     ("kg/(m s)", [1, -1, 1], "τ(hₚ) H/Uₘ"),
+    ("s", [1, -1, 0], "H/Uₘ"),
+    ("J", [3, 0, 1], "τ(hₚ) H³"),
 ];
 
 /// How a unit of the catalogue is written when it is divided: `Uₘ` for `m/s`.

@@ -6,4 +6,5 @@ pub mod dual;
 pub mod levels;
 pub mod quadrature;
 pub mod root;
+pub mod sum;
 pub mod thomas;

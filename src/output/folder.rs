@@ -4,11 +4,13 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
+use super::grains::{CHECKPOINT, is_frame};
 use super::{comparison, study};
 use crate::result::{Status, Summary};
 
 /// Files that a run folder may hold; anything else in it is not ours.
-pub(super) const OURS: &[&str] = &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES];
+pub(super) const OURS: &[&str] =
+    &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES, CHECKPOINT, "grains.csv"];
 /// The one folder in it, of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
 /// Written and removed to see whether files can be made.
@@ -166,9 +168,9 @@ pub struct Mode {
 #[derive(Debug)]
 pub struct Folder {
     /// where the run will be
-    target: PathBuf,
+    pub(super) target: PathBuf,
     /// where it is written: the target itself, or a folder beside it that replaces it in the end
-    place: PathBuf,
+    pub(super) place: PathBuf,
     /// what was made for it: the place, or the first of the folders above it that were not there
     made: Option<PathBuf>,
     /// whether a finished run stands in the target
@@ -364,7 +366,7 @@ pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError
     let foreign = |entry: String| Err(OutputError::Foreign { folder: folder.into(), entry });
     for (name, is_folder) in entries(folder).map_err(unwritable)? {
         if is_folder != [FIGURES, study::POINTS].contains(&name.as_str())
-            || !(ours.contains(&name.as_str()) || partial(&name))
+            || !(ours.contains(&name.as_str()) || partial(&name) || is_frame(&name))
         {
             return foreign(name);
         }

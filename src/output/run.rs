@@ -186,7 +186,9 @@ fn draw(
     let figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
     let page = {
         let (equations, notes) = (crate::equations(problem), [problem.title.clone()]);
-        plot::report_html(&Page { summary, figures: &figures, equations: &equations, case_toml: case, notes: &notes })
+        let picture = fs::File::open(place.join("grains.csv")).ok().and_then(|f| plot::grains_svg(BufReader::new(f)));
+        let (figures, picture) = (&figures, picture.as_deref());
+        plot::report_html(&Page { summary, figures, picture, equations: &equations, case_toml: case, notes: &notes })
     };
     write_whole(&place.join("report.html"), |to| to.write_all(page.as_bytes()))?;
     if !png {

@@ -6,6 +6,7 @@ mod canvas;
 mod document;
 mod draw;
 mod figure;
+mod grains;
 mod interface;
 mod layout;
 mod png;
@@ -23,6 +24,7 @@ use std::path::PathBuf;
 
 pub use document::{Cell, Document, Section, document_html};
 pub use figure::{Axis, Curve, Dash, Figure, Level, Marker, Panel, Scale};
+pub use grains::grains_svg;
 pub use png::png;
 pub use profile::profile_figures;
 pub use report::{Page, report_html};

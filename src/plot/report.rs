@@ -17,6 +17,8 @@ pub struct Page<'a> {
     pub summary: &'a Summary,
     /// in order
     pub figures: &'a [Figure],
+    /// a picture of grains as SVG, if there are any
+    pub picture: Option<&'a str>,
     /// the equations solved, as text with line breaks
     pub equations: &'a str,
     /// the resolved case
@@ -52,6 +54,12 @@ pub fn report_html(page: &Page<'_>) -> String {
     html += &balances(summary);
     html += &validity(summary);
     html += &figures(page.figures);
+    if let Some(picture) = page.picture {
+        html += &format!(
+            "<figure id=\"grains\"><div class=\"wide\">{picture}</div><figcaption>Side view of the grains nearest to the \
+             viewer at the end, coloured by their velocity along the flow.</figcaption></figure>\n"
+        );
+    }
     for note in page.notes {
         html += &format!("<p class=\"note\">{}</p>\n", escape(note));
     }
@@ -308,6 +316,7 @@ mod tests {
         let html = report_html(&Page {
             summary: &summary,
             figures: &figures,
+            picture: None,
             equations: "τ = η du/dz",
             case_toml: toml,
             notes: &[],
@@ -340,6 +349,7 @@ mod tests {
         let html = report_html(&Page {
             summary: &summary,
             figures: &figures,
+            picture: None,
             equations: hostile,
             case_toml: hostile,
             notes: &[hostile.into()],

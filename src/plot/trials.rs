@@ -236,7 +236,14 @@ fn draw_the_trials() {
         let name = if summary.error.is_some() { "hostile" } else { &summary.case };
         let notes = ["Grains and fluid move together in the mixed form, so it has no threshold of motion.".to_owned()];
         let case_toml = "format = 1\n\n[case]\nname = \"ouriemi\"";
-        let page = crate::plot::Page { summary: &summary, figures: &figures, equations, case_toml, notes: &notes };
+        let page = crate::plot::Page {
+            summary: &summary,
+            figures: &figures,
+            picture: None,
+            equations,
+            case_toml,
+            notes: &notes,
+        };
         let begin = std::time::Instant::now();
         let html = crate::plot::report_html(&page);
         println!("{name}: page {:?}, {} bytes", begin.elapsed(), html.len());

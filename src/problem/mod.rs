@@ -1,11 +1,13 @@
 //! What is solved: immutable values in SI, checked against each other. After this nothing is out of range and no unit remains.
 
 mod bed;
+mod grains;
 mod others;
 mod sheet;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
+pub use grains::{GrainBed, Impact};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
 
@@ -23,7 +25,7 @@ pub struct Problem {
     pub kind: &'static str,
     /// what is solved
     pub model: Model,
-    /// number of levels of the profile
+    /// number of levels of the profile, or of mobile grains
     pub cells: usize,
 }
 
@@ -44,6 +46,10 @@ pub enum Model {
     Bingham(RegularisedPlane),
     /// two-layer sheet flow
     SheetFlow(SheetFlow),
+    /// a bed of spheres, grain by grain
+    Grains(GrainBed),
+    /// the impact of one sphere
+    Impact(Impact),
 }
 
 /// Faults found while comparing values with each other, by path.
@@ -94,6 +100,11 @@ impl Problem {
             Scene::SheetFlow(scene) => {
                 (sheet::sheet_flow(scene, case.model, &mut faults).map(Model::SheetFlow), scene.grid.cells)
             }
+            Scene::GrainsBed(scene) => {
+                let bed = grains::bed(scene, &mut faults);
+                (bed.map(Model::Grains), bed.map_or(0, |bed| bed.mobile))
+            }
+            Scene::Impact(scene) => (Some(Model::Impact(grains::impact(scene))), 1),
         };
         let mut faults: Vec<(String, Fault)> =
             faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();

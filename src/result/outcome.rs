@@ -152,6 +152,16 @@ pub enum SolveError {
         /// largest accepted magnitude
         limit: f64,
     },
+    /// Grains that cannot go on.
+    #[error("{message}")]
+    Grains {
+        /// stable identifier of the kind
+        code: &'static str,
+        /// grain, place and step, with the numbers
+        message: String,
+        /// what a user can change
+        hint: &'static str,
+    },
     /// Columns of unequal length: a defect of the program.
     #[error("{column} has the wrong number of rows")]
     Inconsistent {
@@ -179,6 +189,7 @@ impl SolveError {
             Self::NotRepresentable { .. } => "not-representable",
             Self::Unbalanced { .. } => "unbalanced",
             Self::Inconsistent { .. } => "inconsistent",
+            Self::Grains { code, .. } => code,
         }
     }
 
@@ -201,6 +212,7 @@ impl SolveError {
             Self::NotFinite { .. } | Self::NotRepresentable { .. } | Self::Unbalanced { .. } => {
                 "a value of the case is far from those of any flow: case.toml has all of them in SI".into()
             }
+            Self::Grains { hint, .. } => (*hint).into(),
             Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {
                 "this should not happen for a checked case: please report it with case.toml".into()
             }

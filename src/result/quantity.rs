@@ -45,12 +45,20 @@ catalogue! {
     RATIO_R = "rearrangement_ratio", "rearrangement ratio", "r", "1", "free-fall over turbulent rearrangement time";
     CUMULATIVE_FLUX = "cumulative_flux_m2_s", "cumulative flux", "Π", "m²/s", "integral of the solid flux density from the bottom";
     EDDY_VISCOSITY = "eddy_viscosity_m2_s", "eddy viscosity", "ν_t", "m²/s", "kinematic eddy viscosity";
+    GRANULAR_TEMPERATURE = "granular_temperature_m2_s2", "granular temperature", "T", "m²/s²", "a third of the mean square of the grain velocity about its mean in the slice";
+    PHI_STDERR = "phi_stderr", "standard error of the solid fraction", "σ(φ)", "1", "by block averaging";
+    U_PARTICLE_STDERR = "u_particle_m_s_stderr", "standard error of the grain velocity", "σ(u_p)", "m/s", "by block averaging";
+    GRANULAR_TEMPERATURE_STDERR = "granular_temperature_m2_s2_stderr", "standard error of the granular temperature", "σ(T)", "m²/s²", "by block averaging";
+    TAU_PARTICLE_STDERR = "tau_particle_Pa_stderr", "standard error of the intergranular shear stress", "σ(τ_p)", "Pa", "by block averaging";
+    P_PARTICLE_STDERR = "p_particle_Pa_stderr", "standard error of the particle pressure", "σ(P_p)", "Pa", "by block averaging";
 }
 
 catalogue! {
     /// Columns of `series.csv`.
     SERIES:
     ITERATION = "iteration", "iteration", "n", "1", "evaluation of the residual by the root finder or solver";
+    TIME = "time_s", "time", "t", "s", "simulated time";
+    KINETIC_ENERGY = "kinetic_energy_J", "kinetic energy", "E_k", "J", "of the mobile grains, translation and rotation";
     RESIDUAL = "residual", "relative residual", "r", "1", "magnitude of the residual relative to the scale that the model states";
 }
 
@@ -104,6 +112,23 @@ catalogue! {
     FREE_FALL_SHARE = "free_fall_share", "share in free fall", "", "1", "part of the moving solid volume of the bed layer whose rearrangement is a free fall";
     TURBULENT_SHARE = "turbulent_share", "share in turbulent fall", "", "1", "part of the moving solid volume of the bed layer whose rearrangement time is turbulent";
     CHANGE_OF_TYPE = "change_of_type_m", "depth of the change of type", "m_0", "m", "solid volume under the bed level down to which the equations as published are of another type";
+    GRAINS = "grains", "grains", "N", "1", "number of mobile grains";
+    TIME_STEP = "time_step_s", "time step", "Δt", "s", "of the grains";
+    TIME_STEP_RATIO = "time_step_over_limit", "time step over its stability limit", "Δt/Δt_max", "1", "limit of the grain that sets it, with its contacts at the end";
+    COORDINATION = "coordination", "coordination number", "Z", "1", "contacts of a mobile grain with grains and walls, mean over time";
+    OVERLAP = "overlap_largest", "largest overlap", "δ/d", "1", "over the sum of the radii, of all contacts at the times that are averaged";
+    PHI_BULK = "phi_bulk", "solid fraction of the bed", "φ_b", "1", "mean between a quarter and three quarters of the bed";
+    WEIGHT_RATIO = "weight_supported", "weight that the bottom supports", "P_p/(m g)", "1", "upward force of bottom, fixed grains and walls on the mobile grains over their weight normal to the bed, mean over time";
+    FRICTION_WALLS = "bottom_friction", "friction of the bottom", "τ/P", "1", "force of bottom and walls against the flow over the normal one, mean over time: the tangent of the slope if the flow is steady";
+    KINETIC_LEFT = "kinetic_energy_left", "kinetic energy left", "E_k/(m g d)", "1", "mean over the grains and the time averaged";
+    RESTITUTION = "restitution", "restitution coefficient", "e", "1", "normal velocity after over before the impact";
+    RESTITUTION_ERROR = "restitution_error", "error of the restitution", "Δe/e", "1", "restitution coefficient minus that of the case, relative to it";
+    CONTACT_TIME = "contact_time_s", "duration of the contact", "t_c", "s", "from the first to the last step with a force";
+    CONTACT_TIME_ERROR = "contact_time_error", "error of the duration", "Δt_c/t_c", "1", "duration minus that of the closed form, relative to it";
+    TANGENTIAL_VELOCITY = "tangential_velocity_m_s", "tangential velocity after the impact", "v_t", "m/s", "of the grain relative to what it hits, along its motion before";
+    SPIN_AFTER = "spin_1_s", "angular velocity after the impact", "ω", "1/s", "positive rolls with the motion";
+    SLIP_ERROR = "gross_slip_error", "error of the gross-slip law", "Δv_t/v", "1", "tangential velocity minus v_t - μ (1 + e) v_n, relative to the velocity; defined where the contact slips throughout";
+    ENERGY_GAINED = "energy_gained", "energy gained", "ΔE/E", "1", "kinetic energy after over before the impact, minus 1";
     REYNOLDS = "reynolds", "Reynolds number", "Re", "1", "ρ_f U_m H/η";
 }
 

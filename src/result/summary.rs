@@ -68,6 +68,16 @@ impl Results {
         }
     }
 
+    /// Reports a mean [SI] with its standard error.
+    pub fn set_mean(&mut self, quantity: &'static Quantity, value: f64, stderr: f64) {
+        self.set(quantity, value);
+        if let Some((_, reported)) = self.0.last_mut()
+            && stderr.is_finite()
+        {
+            reported.stderr = reported.value.map(|_| stderr);
+        }
+    }
+
     /// Reports that a quantity has no value here, and why.
     pub fn undefined(&mut self, quantity: &'static Quantity, reason: &str) {
         self.0.push((quantity.name.into(), Reported { value: None, stderr: None, reason: Some(reason.into()) }));

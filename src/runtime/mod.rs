@@ -2,3 +2,5 @@
 
 pub mod cost;
 pub mod interrupt;
+pub mod pool;
+pub mod rng;

@@ -57,7 +57,7 @@ fn wrong_usage_exits_2_on_standard_error() {
 #[test]
 fn run_ends_with_at_most_twelve_lines() {
     let scratch = Scratch::new();
-    for case in bedload::case::shipped::names() {
+    for case in bedload::case::shipped::quick() {
         let answer = scratch.bedload(["run", case]).exits(0);
         let lines: Vec<&str> = answer.out.lines().collect();
         assert!((5..=12).contains(&lines.len()), "{case}: {} lines", lines.len());

@@ -1,0 +1,208 @@
+//! The tables of cases of single grains, as `tables` has those of the other models.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::tables::SlopeDefinition;
+use crate::closures::contact::Contact;
+
+/// A bed of grains that is let fall into place.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GrainBed {
+    /// Layers of mobile grains: their number is layers times length times width over the square of the diameter.
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub layers: f64,
+    /// What the bed rests on.
+    #[serde(default)]
+    pub bottom: Bottom,
+}
+
+/// What a bed rests on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Bottom {
+    /// Fixed grains side by side, their elevations at random in three steps of a third of the diameter.
+    #[default]
+    Steps,
+    /// A slice of grains of a bed deposited before on a plane, fixed where they lie.
+    Slice,
+    /// A plane with the friction of the grains.
+    Plane,
+}
+
+/// The channel of the grains: periodic along x, and its tilt.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GrainFlow {
+    /// Period along the flow.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub length: f64,
+    /// Period across the flow, or the distance of the side walls.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub width: f64,
+    /// Whether there are side walls, with the friction of the grains, instead of a period.
+    #[serde(default)]
+    pub side_walls: bool,
+    /// Drive: the slope, as slope_definition says; 0 is a bed at rest.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
+    pub slope: f64,
+    /// What the number given as slope is: papers differ.
+    #[serde(default = "tangent")]
+    pub slope_definition: SlopeDefinition,
+    /// Acceleration of gravity.
+    #[serde(default = "gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+}
+
+/// The model: grains one by one.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GrainsModel {
+    /// What kind of model: every grain is followed.
+    pub kind: GrainsKind,
+}
+
+/// Every grain is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum GrainsKind {
+    /// Every grain is followed.
+    Grains,
+}
+
+/// The model: the impact of one grain.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ImpactModel {
+    /// What kind of model: one impact, next to its closed form.
+    pub kind: ImpactKind,
+}
+
+/// One impact, next to its closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum ImpactKind {
+    /// One impact, next to its closed form.
+    Impact,
+}
+
+/// How a grain hits what is there.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ImpactFlow {
+    /// Velocity of the grain before the impact, relative to what it hits.
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub velocity: f64,
+    /// Angle of that velocity with the normal: 0 is head-on.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "rad", "minimum" = 0.0, "maximum" = 1.57))]
+    pub angle: f64,
+    /// Angular velocity before the impact; positive rolls with the motion.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "1/s", "minimum" = -1e6, "maximum" = 1e6))]
+    pub spin: f64,
+    /// What it hits.
+    #[serde(default)]
+    pub target: Target,
+}
+
+/// What a grain hits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Target {
+    /// A plane wall.
+    #[default]
+    Wall,
+    /// A fixed grain of the same size.
+    Fixed,
+    /// A mobile grain of the same size, at rest.
+    Mobile,
+}
+
+/// How long and how finely an impact is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct ImpactSteps {
+    /// Time steps within the duration of the contact.
+    #[serde(default = "steps")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 5.0, "maximum" = 100000.0))]
+    pub steps_per_contact: f64,
+}
+
+impl Default for ImpactSteps {
+    fn default() -> Self {
+        Self { steps_per_contact: steps() }
+    }
+}
+
+/// How grains are moved and averaged.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Discrete {
+    /// Simulated time after the bed has come to rest.
+    #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 1e5))]
+    pub duration: f64,
+    /// Share of that time, at its end, over which profiles are averaged.
+    #[serde(default = "half")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub averaged: f64,
+    /// Longest time that the grains are given to fall and come to rest.
+    #[serde(default = "settle")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub settle: f64,
+    /// Time step; derived from the stability limit where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub time_step: Option<f64>,
+    /// Derived time step over the stability limit of a grain in a packing.
+    #[serde(default = "safety")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub safety: f64,
+    /// Whether a time step beyond the stability limit is taken nevertheless.
+    #[serde(default)]
+    pub force_time_step: bool,
+    /// Listed neighbours are nearer than a diameter and this share of it.
+    #[serde(default = "skin")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.01, "maximum" = 1.0))]
+    pub skin: f64,
+    /// Thickness of the slices of the profile over the diameter.
+    #[serde(default = "slice")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.005, "maximum" = 2.0))]
+    pub slice: f64,
+    /// Number from which the positions of the cloud are drawn.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1_000_000))]
+    pub seed: u32,
+    /// Pictures of the grains for ParaView, evenly spaced over the duration.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 10_000))]
+    pub frames: u32,
+}
+
+fn tangent() -> SlopeDefinition {
+    SlopeDefinition::Tangent
+}
+fn gravity() -> f64 {
+    9.81
+}
+fn steps() -> f64 {
+    50.0
+}
+fn half() -> f64 {
+    0.5
+}
+fn settle() -> f64 {
+    1.0
+}
+fn safety() -> f64 {
+    0.7
+}
+fn skin() -> f64 {
+    0.15
+}
+fn slice() -> f64 {
+    1.0 / 30.0
+}
+
+/// Laws of the grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GrainClosures {
+    /// Contact of two grains, or of a grain with a wall.
+    pub contact: Contact,
+}

@@ -1,0 +1,218 @@
+//! Profiles of a bed: slices of spheres exactly, stresses of contacts and fluctuations, block averages.
+//!
+//! Means of a slice are weighted with the volume that each sphere has in it (Maurin et al. 2015, eq. A1). The stress is
+//! σ = -ρ_p φ <v'v'> - (1/V) Σ f b (Chassagne et al. 2023, eq. 2.27), b the branch of a contact, spread over the slices that it crosses.
+
+use std::f64::consts::PI;
+
+use super::checkpoint::Saved;
+use super::engine::Engine;
+use super::law::ContactLaw;
+
+/// Volume of the part of a sphere of radius `r` around 0 that lies between `low` and `high` [m3].
+#[must_use]
+pub fn slice_volume(r: f64, low: f64, high: f64) -> f64 {
+    let (a, b) = (low.clamp(-r, r), high.clamp(-r, r));
+    // The difference of two cubes, without their cancellation.
+    PI * (b - a) * (r * r - (b * b + a * b + a * a) / 3.0)
+}
+
+/// Sums over the samples of one block, one entry per slice.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Block {
+    samples: f64,
+    volume: Vec<f64>,
+    momentum: Vec<[f64; 3]>,
+    squares: Vec<[f64; 4]>,
+    contact: Vec<[f64; 2]>,
+}
+
+/// Profiles over time, in blocks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Averages {
+    bottom: f64,
+    thickness: f64,
+    slice_volume: f64,
+    density: f64,
+    blocks: Vec<Block>,
+}
+
+/// A mean and its standard error, where there is one.
+pub type Mean = Option<(f64, f64)>;
+
+/// The averaged profile, one entry per slice.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Averaged {
+    /// elevation of the middle [m]
+    pub z: Vec<f64>,
+    /// solid fraction
+    pub phi: Vec<Mean>,
+    /// velocity along the flow [m/s]
+    pub velocity: Vec<Mean>,
+    /// granular temperature [m2/s2]
+    pub temperature: Vec<Mean>,
+    /// shear stress, positive where the upper layer drags the lower one [Pa]
+    pub shear: Vec<Mean>,
+    /// normal stress [Pa]
+    pub pressure: Vec<Mean>,
+}
+
+impl Averages {
+    /// Nothing yet: slices of `thickness` [m] from `bottom` to `top` [m] over `area` [m2], in `blocks` blocks.
+    #[must_use]
+    pub fn new(bottom: f64, top: f64, thickness: f64, area: f64, density: f64, blocks: usize) -> Self {
+        let slices = (((top - bottom) / thickness).ceil().max(1.0) as usize).min(1_000_000);
+        Self::empty(slices, blocks, [bottom, thickness, area * thickness, density])
+    }
+
+    /// Number of slices and of blocks.
+    #[must_use]
+    pub fn shape(&self) -> [usize; 2] {
+        [self.blocks.first().map_or(0, |b| b.volume.len()), self.blocks.len()]
+    }
+
+    /// Nothing yet, of a given shape.
+    #[must_use]
+    pub fn empty(slices: usize, blocks: usize, [bottom, thickness, slice_volume, density]: [f64; 4]) -> Self {
+        let block = Block {
+            samples: 0.0,
+            volume: vec![0.0; slices],
+            momentum: vec![[0.0; 3]; slices],
+            squares: vec![[0.0; 4]; slices],
+            contact: vec![[0.0; 2]; slices],
+        };
+        let blocks = vec![block; blocks.max(1)];
+        Self { bottom, thickness, slice_volume, density, blocks }
+    }
+
+    /// Adds the present state to block `block`.
+    pub fn sample<C: ContactLaw>(&mut self, engine: &Engine<C>, block: usize) {
+        let (bottom, thickness) = (self.bottom, self.thickness);
+        let last = self.blocks.len() - 1;
+        let Block { samples, volume, momentum, squares, contact } = &mut self.blocks[block.min(last)];
+        *samples += 1.0;
+        let slices = volume.len();
+        let index = |z: f64| ((z - bottom) / thickness).clamp(0.0, slices as f64) as usize;
+        let grains = engine.grains();
+        for i in 0..grains.len() {
+            let (r, [_, _, z]) = (grains.radius(i), grains.position(i));
+            let [u, v, w] = grains.velocity(i);
+            for s in index(z - r)..(index(z + r) + 1).min(slices) {
+                let low = bottom + s as f64 * thickness - z;
+                let part = slice_volume(r, low, low + thickness);
+                volume[s] += part;
+                for (sum, x) in momentum[s].iter_mut().zip([u, v, w]) {
+                    *sum += part * x;
+                }
+                for (sum, x) in squares[s].iter_mut().zip([u * u, v * v, w * w, u * w]) {
+                    *sum += part * x;
+                }
+            }
+        }
+        for seen in engine.contacts() {
+            let z = grains.position(seen.first)[2];
+            let rise = seen.normal[2] * seen.distance;
+            let (low, high) = if rise > 0.0 { (z, z + rise) } else { (z + rise, z) };
+            // A level branch carries no stress across levels.
+            if high <= low {
+                continue;
+            }
+            let sign = if rise > 0.0 { 1.0 } else { -1.0 };
+            for s in index(low)..(index(high) + 1).min(slices) {
+                let from = bottom + s as f64 * thickness;
+                let length = (high.min(from + thickness) - low.max(from)).max(0.0);
+                contact[s][0] -= sign * seen.force[0] * length;
+                contact[s][1] += sign * seen.force[2] * length;
+            }
+        }
+    }
+
+    /// The profile with its standard errors; empty slices have no velocity.
+    #[must_use]
+    pub fn profile(&self) -> Averaged {
+        let used: Vec<&Block> = self.blocks.iter().filter(|b| b.samples > 0.0).collect();
+        let mut profile = Averaged::default();
+        if used.is_empty() {
+            return profile;
+        }
+        for s in 0..used[0].volume.len() {
+            profile.z.push(self.bottom + (s as f64 + 0.5) * self.thickness);
+            let mean = |value: &dyn Fn(&Block) -> Option<f64>| mean(used.iter().filter_map(|b| value(b)));
+            let per = |b: &Block| b.samples * self.slice_volume;
+            // What is thinner than a thousandth of a per cent is a grain that flew by.
+            let filled = |b: &&Block| b.volume[s] > 1e-5 * per(b);
+            let fluctuation = |b: &Block, a: usize, c: usize, square: usize| {
+                let m = b.momentum[s].map(|m| m / b.volume[s]);
+                b.squares[s][square] / b.volume[s] - m[a] * m[c]
+            };
+            let kinetic = |b: &Block, a: usize, c: usize, square: usize| {
+                if filled(&b) { self.density * b.volume[s] / per(b) * fluctuation(b, a, c, square) } else { 0.0 }
+            };
+            profile.phi.push(mean(&|b| Some(b.volume[s] / per(b))));
+            profile.velocity.push(mean(&|b| filled(&b).then(|| b.momentum[s][0] / b.volume[s])));
+            let temperature = |b: &Block| (0..3).map(|k| fluctuation(b, k, k, k)).sum::<f64>().max(0.0) / 3.0;
+            profile.temperature.push(mean(&|b| filled(&b).then(|| temperature(b))));
+            profile.shear.push(mean(&|b| Some(b.contact[s][0] / per(b) - kinetic(b, 0, 2, 3))));
+            profile.pressure.push(mean(&|b| Some(b.contact[s][1] / per(b) + kinetic(b, 2, 2, 2))));
+        }
+        profile
+    }
+}
+
+impl Saved for Averages {
+    fn numbers(&mut self) -> Vec<&mut f64> {
+        let mut all = vec![&mut self.bottom, &mut self.thickness, &mut self.slice_volume, &mut self.density];
+        for block in &mut self.blocks {
+            all.push(&mut block.samples);
+            all.extend(block.volume.iter_mut());
+            all.extend(block.momentum.iter_mut().flatten());
+            all.extend(block.squares.iter_mut().flatten());
+            all.extend(block.contact.iter_mut().flatten());
+        }
+        all
+    }
+}
+
+/// Mean of blocks and its standard error; 0 where there is one block only.
+fn mean(values: impl Iterator<Item = f64>) -> Mean {
+    let values: Vec<f64> = values.collect();
+    let n = values.len() as f64;
+    if values.is_empty() {
+        return None;
+    }
+    let mean = values.iter().sum::<f64>() / n;
+    let square: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
+    Some((mean, if n > 1.0 { (square / (n * (n - 1.0))).sqrt() } else { 0.0 }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn slices_of_a_sphere_add_up_to_it_however_thin() {
+        let r = 3e-3;
+        let whole = 4.0 / 3.0 * PI * r * r * r;
+        for n in [1, 2, 7, 60, 1000] {
+            let thickness = 2.2 * r / f64::from(n);
+            let sum: f64 = (0..n)
+                .map(|s| -1.1 * r + f64::from(s) * thickness)
+                .map(|low| slice_volume(r, low, low + thickness))
+                .sum();
+            approx::assert_relative_eq!(sum, whole, max_relative = 1e-13);
+        }
+        // A slice as thin as a thousandth of the diameter through the middle is a disc.
+        let thin = 2e-3 * r;
+        let disc = PI * r * r * thin;
+        approx::assert_relative_eq!(slice_volume(r, -0.5 * thin, 0.5 * thin), disc, max_relative = 1e-6);
+        assert_eq!(slice_volume(r, 1.5 * r, 2.0 * r), 0.0);
+    }
+
+    #[test]
+    fn the_standard_error_is_that_of_independent_blocks() {
+        let (m, e) = mean([1.0, 2.0, 3.0, 4.0].into_iter()).unwrap();
+        approx::assert_relative_eq!(m, 2.5);
+        approx::assert_relative_eq!(e, (5.0_f64 / 12.0).sqrt());
+        assert_eq!(mean([].into_iter()), None);
+    }
+}

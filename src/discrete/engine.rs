@@ -1,0 +1,380 @@
+//! The step loop: forces, kick and drift, a new list when grains have come far enough.
+#![allow(unsafe_code, reason = "tiles and their grains go to threads, each to one")]
+
+use super::body::Body;
+use super::cells::Cells;
+use super::domain::Domain;
+use super::error::GrainError;
+use super::forces::{self, Scene, Touching};
+use super::grains::{Grain, Grains, Point};
+use super::integrate::{self, Lengths, Mover, Rows};
+use super::lanes::{Backend, Row};
+use super::law::ContactLaw;
+use super::ledger::Ledger;
+use super::neighbours::Before;
+use super::stability;
+use super::tile::{Moved, Tile, cut};
+use crate::runtime::pool::{Parts, Pool};
+
+/// How the grains are moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// time step [s]
+    pub dt: f64,
+    /// gravity [m/s2]
+    pub gravity: Point,
+    /// listed pairs are nearer than the sum of their radii and this [m]
+    pub skin: f64,
+    /// largest accepted overlap over the sum of the radii
+    pub largest_overlap: f64,
+    /// elevation below which a grain is lost [m]
+    pub lowest: f64,
+}
+
+impl Settings {
+    /// Defaults for grains of diameter `d` [m]: skin 0.15 d, overlaps to 0.2, nothing below.
+    #[must_use]
+    pub fn new(dt: f64, gravity: Point, d: f64) -> Self {
+        Self { dt, gravity, skin: 0.15 * d, largest_overlap: 0.2, lowest: f64::NEG_INFINITY }
+    }
+}
+
+/// Grains, their contacts, and the means to move them. One thread or many: the same bits.
+#[derive(Debug)]
+pub struct Engine<C> {
+    pub(super) law: C,
+    pub(super) domain: Domain,
+    pub(super) settings: Settings,
+    pub(super) grains: Grains,
+    pub(super) tiles: Vec<Tile>,
+    /// positions when the list was made
+    pub(super) reference: Vec<Row>,
+    /// bound of the way of any grain since the list was made [m]
+    pub(super) way: f64,
+    pub(super) step: u64,
+    pub(super) ledger: Ledger,
+    backend: Backend,
+    pool: Pool,
+    /// first tile of each thread, and the end
+    bounds: Vec<usize>,
+    moved: Vec<Moved>,
+    pub(super) former: Vec<Tile>,
+    cells: Cells,
+    order: Vec<u32>,
+    rebuilds: u64,
+    scratch: Vec<Touching>,
+}
+
+/// Most grains: indices are 32-bit words.
+const MOST: usize = 1 << 30;
+
+impl<C: ContactLaw> Engine<C> {
+    /// Grains at the beginning, with no contact made yet.
+    ///
+    /// # Errors
+    /// [`GrainError`] if the domain cannot hold them.
+    pub fn new(
+        grains: &[Grain],
+        domain: Domain,
+        law: C,
+        settings: Settings,
+        threads: usize,
+    ) -> Result<Self, GrainError> {
+        if grains.is_empty() || grains.len() > MOST {
+            return Err(GrainError::Count { count: grains.len(), limit: MOST });
+        }
+        let mut engine = Self::bare(Grains::new(grains), domain, law, settings, threads);
+        let least = 2.0 * (2.0 * engine.grains.largest_radius() + settings.skin);
+        for (axis, period) in ['x', 'y'].into_iter().zip(engine.domain.periods) {
+            if let Some(length) = period.filter(|&l| l.is_nan() || l <= least) {
+                return Err(GrainError::PeriodTooShort { axis, length, least });
+            }
+        }
+        engine.look_for_madness(true)?;
+        engine.rebuild();
+        engine.ledger.begin(engine.grains.kinetic_energy());
+        Ok(engine)
+    }
+
+    /// Grains without a list.
+    pub(super) fn bare(grains: Grains, domain: Domain, law: C, settings: Settings, threads: usize) -> Self {
+        let law = law.for_step(settings.dt, grains.inverse_masses());
+        let pool = Pool::new(threads);
+        let scratch = vec![Touching::default(); pool.threads()];
+        Self {
+            law,
+            domain,
+            settings,
+            grains,
+            tiles: Vec::new(),
+            reference: Vec::new(),
+            way: 0.0,
+            step: 0,
+            ledger: Ledger::default(),
+            backend: Backend::choose(),
+            bounds: vec![0; pool.threads() + 1],
+            pool,
+            moved: Vec::new(),
+            former: Vec::new(),
+            cells: Cells::default(),
+            order: Vec::new(),
+            rebuilds: 0,
+            scratch,
+        }
+    }
+
+    /// The same with the instructions of `backend`.
+    #[must_use]
+    pub fn with_backend(mut self, backend: Backend) -> Self {
+        self.backend = backend;
+        self
+    }
+
+    /// Makes one step: velocities go from t - dt/2 to t + dt/2, positions from t to t + dt.
+    ///
+    /// # Errors
+    /// [`GrainError`] with the grain that cannot go on; the step is made, and the state is not to be used.
+    pub fn step<B: Body>(&mut self, body: &B) -> Result<(), GrainError> {
+        let dt = self.settings.dt;
+        self.advance(body, dt, Lengths { kick: dt, drift: dt })
+    }
+
+    /// The first step from velocities at t = 0 instead of -dt/2: half a kick by forces whose springs do not follow.
+    ///
+    /// # Errors
+    /// As [`Engine::step`].
+    pub fn half_step<B: Body>(&mut self, body: &B) -> Result<(), GrainError> {
+        let dt = self.settings.dt;
+        self.advance(body, 0.0, Lengths { kick: 0.5 * dt, drift: dt })
+    }
+
+    fn advance<B: Body>(&mut self, body: &B, spring_dt: f64, lengths: Lengths) -> Result<(), GrainError> {
+        self.forces(spring_dt);
+        let deepest = self.tiles.iter().fold(0.0, |deepest: f64, tile| tile.found.overlap.max(deepest));
+        // Also true for NaN.
+        let shallow = deepest <= self.settings.largest_overlap;
+        if !shallow {
+            return Err(self.overlap_error());
+        }
+        self.kick_and_drift(body, lengths);
+        self.step += 1;
+        let (mut fastest, mut sane) = (0.0, 0.0);
+        for moved in &self.moved {
+            if moved.fastest > fastest {
+                fastest = moved.fastest;
+            }
+            sane += moved.sane;
+            self.ledger.add(moved);
+        }
+        if sane != 0.0 {
+            return self.look_for_madness(false);
+        }
+        self.way += fastest.sqrt() * lengths.drift;
+        if 2.0 * self.way > self.settings.skin {
+            self.way = self.farthest();
+            // Fixed grains may move, too, with a given velocity; their way is in `farthest` but not in `fastest`.
+            if 2.0 * self.way > 0.9 * self.settings.skin {
+                self.look_for_madness(true)?;
+                self.rebuild();
+            }
+        }
+        Ok(())
+    }
+
+    /// Computes what acts on every grain.
+    pub(super) fn forces(&mut self, dt: f64) {
+        let Self { law, domain, grains, tiles, backend, pool, bounds, scratch, .. } = self;
+        let scene = Scene { law, domain, grains, dt };
+        let (tiles, scratch) = (Parts::new(tiles), Parts::new(scratch));
+        pool.each(bounds, |thread, t| {
+            // SAFETY: each tile and each thread is a part of its own.
+            let (tile, scratch) = unsafe { (tiles.part(t..t + 1), scratch.part(thread..thread + 1)) };
+            forces::compute(*backend, scene, &mut tile[0], &mut scratch[0]);
+        });
+    }
+
+    fn kick_and_drift<B: Body>(&mut self, body: &B, lengths: Lengths) {
+        let Self { grains, tiles, moved, backend, pool, bounds, settings, .. } = self;
+        let mover = Mover { tiles: tiles.as_slice(), gravity: settings.gravity, body, step: lengths };
+        let results = Parts::new(moved);
+        let positions = Parts::new(&mut grains.positions);
+        let velocities = Parts::new(&mut grains.velocities);
+        let spins = Parts::new(&mut grains.spins);
+        let ids = &grains.ids;
+        pool.each(bounds, |_, t| {
+            let range = mover.tiles[t].grains.clone();
+            // SAFETY: tiles are disjoint, and each is a part of its own.
+            let (rows, result) = unsafe {
+                let rows = Rows {
+                    positions: positions.part(range.clone()),
+                    velocities: velocities.part(range.clone()),
+                    spins: spins.part(range.clone()),
+                    ids: &ids[range],
+                };
+                (rows, results.part(t..t + 1))
+            };
+            result[0] = integrate::advance(*backend, mover, t, rows);
+        });
+    }
+
+    /// Longest way of a grain since the list was made [m].
+    fn farthest(&self) -> f64 {
+        let squared =
+            |(now, then): (&Row, &Row)| (0..3).map(|k| (now.0[k] - then.0[k]) * (now.0[k] - then.0[k])).sum::<f64>();
+        let rows = self.grains.positions[..self.grains.len()].iter().zip(&self.reference);
+        rows.map(squared).fold(0.0, f64::max).sqrt()
+    }
+
+    /// Sorts the grains and lists their neighbours anew; springs stay with their contacts.
+    fn rebuild(&mut self) {
+        let reach = 2.0 * self.grains.largest_radius() + self.settings.skin;
+        self.cells.sort(&mut self.grains, &self.domain, reach, &mut self.order);
+        self.reference.clear();
+        self.reference.extend_from_slice(&self.grains.positions[..self.grains.len()]);
+        self.way = 0.0;
+        self.rebuilds += 1;
+        let ranges = cut(self.grains.len());
+        std::mem::swap(&mut self.tiles, &mut self.former);
+        self.tiles.resize_with(ranges.len(), Tile::default);
+        self.moved.resize(ranges.len(), Moved::default());
+        for (tile, range) in self.tiles.iter_mut().zip(ranges) {
+            tile.grains = range;
+        }
+        let Self { grains, cells, domain, former, order, settings, tiles, pool, .. } = self;
+        let before = Before { tiles: former, order };
+        let count = tiles.len();
+        let even: Vec<usize> = (0..=pool.threads()).map(|k| k * count / pool.threads()).collect();
+        let parts = Parts::new(tiles);
+        pool.each(&even, |_, t| {
+            // SAFETY: each tile is a part of its own.
+            let tile = &mut unsafe { parts.part(t..t + 1) }[0];
+            tile.list(grains, cells, domain, settings.skin, before);
+            let sound = tile.is_sound(grains.len());
+            debug_assert!(sound, "a list that was just made is sound");
+        });
+        self.share();
+    }
+
+    /// Gives each thread tiles with about as much work.
+    pub(super) fn share(&mut self) {
+        let work: Vec<usize> = self
+            .tiles
+            .iter()
+            .map(|tile| 2 * tile.pairs.len() + 6 * tile.grains.len() + tile.walls.grains.len())
+            .collect();
+        let total: usize = work.iter().sum();
+        let threads = self.pool.threads();
+        self.moved.resize(self.tiles.len(), Moved::default());
+        self.bounds.clear();
+        self.bounds.push(0);
+        let (mut tile, mut done) = (0, 0);
+        for k in 1..threads {
+            while tile < work.len() && (2 * done + work[tile]) * threads <= 2 * k * total {
+                done += work[tile];
+                tile += 1;
+            }
+            self.bounds.push(tile);
+        }
+        self.bounds.push(work.len());
+    }
+
+    /// The first grain whose state is no number, or that has left.
+    fn look_for_madness(&self, and_lost: bool) -> Result<(), GrainError> {
+        for i in 0..self.grains.len() {
+            let rows = [self.grains.positions[i], self.grains.velocities[i], self.grains.spins[i]];
+            if rows.iter().any(|row| row.0.iter().any(|x| !x.is_finite())) {
+                return Err(GrainError::NotFinite { place: self.place(i) });
+            }
+            if and_lost && self.grains.position(i)[2] < self.settings.lowest {
+                return Err(GrainError::Lost { place: self.place(i), lowest: self.settings.lowest });
+            }
+        }
+        Ok(())
+    }
+
+    fn overlap_error(&self) -> GrainError {
+        let limit = self.settings.largest_overlap;
+        if let Err(error) = self.look_for_madness(false) {
+            return error;
+        }
+        let deepest = self.contacts().max_by(|a, b| a.ratio.total_cmp(&b.ratio));
+        match deepest {
+            Some(contact) => GrainError::Overlap {
+                place: self.place(contact.first),
+                other: contact.second.map(|j| self.grains.ids[j]),
+                ratio: contact.ratio,
+                limit,
+            },
+            None => GrainError::NotFinite { place: self.place(0) },
+        }
+    }
+
+    /// Refuses a time step beyond what the present contacts bear.
+    ///
+    /// # Errors
+    /// [`GrainError::StepTooLong`] with the grain that sets the limit.
+    pub fn check_step(&self) -> Result<(), GrainError> {
+        let limit = stability::limit(self);
+        if self.settings.dt <= limit.step {
+            return Ok(());
+        }
+        Err(GrainError::StepTooLong {
+            place: self.place(limit.grain),
+            step_s: self.settings.dt,
+            limit_s: limit.step,
+            contacts: limit.contacts,
+        })
+    }
+
+    pub(super) fn place(&self, i: usize) -> super::error::Place {
+        super::error::Place { grain: self.grains.ids[i], step: self.step, position: self.grains.position(i) }
+    }
+
+    /// Goes on with another step or gravity; the skin stays.
+    pub fn change(&mut self, dt: f64, gravity: Point) {
+        self.settings.dt = dt;
+        self.law = self.law.for_step(dt, self.grains.inverse_masses());
+        self.settings.gravity = gravity;
+    }
+
+    /// The account of energies begins again now.
+    pub fn begin_ledger(&mut self) {
+        self.ledger.begin(self.grains.kinetic_energy());
+    }
+
+    /// The grains, in the order of the list.
+    #[must_use]
+    pub fn grains(&self) -> &Grains {
+        &self.grains
+    }
+
+    /// Steps made.
+    #[must_use]
+    pub fn steps(&self) -> u64 {
+        self.step
+    }
+
+    /// Lists made.
+    #[must_use]
+    pub fn rebuilds(&self) -> u64 {
+        self.rebuilds
+    }
+
+    /// How the grains are moved.
+    #[must_use]
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Periods and walls.
+    #[must_use]
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    /// Energies and impulses so far.
+    #[must_use]
+    pub fn ledger(&self) -> &Ledger {
+        &self.ledger
+    }
+}

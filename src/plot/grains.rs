@@ -1,0 +1,94 @@
+//! A side view of grains, coloured by their velocity.
+
+use std::fmt::Write;
+use std::io::BufRead;
+
+use crate::result::read_columns;
+use crate::units::readable;
+
+/// Colours from slow to fast; all tell apart from light and dark pages, and without colour by their lightness.
+const COLOURS: [[f64; 3]; 4] = [[68.0, 58.0, 120.0], [49.0, 122.0, 142.0], [94.0, 190.0, 112.0], [240.0, 210.0, 50.0]];
+/// Width of the picture [px].
+const WIDTH: f64 = 720.0;
+
+/// The picture from the columns x_m, z_m, radius_m, u_particle_m_s; none if there is nothing to draw.
+#[must_use]
+pub fn grains_svg(table: impl BufRead) -> Option<String> {
+    let columns = read_columns(table).ok()?;
+    let column = |name: &str| columns.iter().find(|(n, _)| n == name).map(|(_, v)| v);
+    let [x, z, r, u] = [column("x_m")?, column("z_m")?, column("radius_m")?, column("u_particle_m_s")?];
+    let rows: Vec<[f64; 4]> = (0..x.len())
+        .filter_map(|i| Some([x[i]?, z[i]?, r[i]?, u[i]?]))
+        .filter(|row| row.iter().all(|v| v.is_finite()))
+        .collect();
+    let low = |of: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(of).fold(f64::INFINITY, f64::min);
+    let high = |of: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let (left, right) = (low(&|g| g[0] - g[2]), high(&|g| g[0] + g[2]));
+    let (bottom, top) = (low(&|g| g[1] - g[2]), high(&|g| g[1] + g[2]));
+    let (slow, fast) = (low(&|g| g[3]), high(&|g| g[3]));
+    if rows.is_empty() || !(right > left && top > bottom) {
+        return None;
+    }
+    let scale = WIDTH / (right - left).max(top - bottom);
+    let (width, height) = (scale * (right - left), scale * (top - bottom));
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {:.1}\" role=\"img\" \
+         aria-label=\"side view of {} grains, velocity from {} to {}\">\n",
+        height + 30.0,
+        rows.len(),
+        readable(slow, "m/s"),
+        readable(fast, "m/s")
+    );
+    for [x, z, r, u] in &rows {
+        let share = if fast > slow { (u - slow) / (fast - slow) } else { 0.0 };
+        let _ = writeln!(
+            svg,
+            "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{:.2}\" fill=\"{}\"/>",
+            scale * (x - left),
+            scale * (top - z),
+            scale * r,
+            colour(share)
+        );
+    }
+    for step in 0..60 {
+        let at = 0.3 * width * f64::from(step) / 60.0;
+        let _ = writeln!(
+            svg,
+            "<rect x=\"{at:.1}\" y=\"{:.1}\" width=\"{:.1}\" height=\"8\" fill=\"{}\"/>",
+            height + 8.0,
+            0.3 * width / 60.0 + 0.5,
+            colour(f64::from(step) / 59.0)
+        );
+    }
+    let _ = writeln!(
+        svg,
+        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"13\" fill=\"currentColor\">{} to {}</text></svg>",
+        0.3 * width + 8.0,
+        height + 17.0,
+        readable(slow, "m/s"),
+        readable(fast, "m/s")
+    );
+    Some(svg)
+}
+
+fn colour(share: f64) -> String {
+    let at = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
+    let i = (at as usize).min(COLOURS.len() - 2);
+    let part = at - i as f64;
+    let mix = |k: usize| (COLOURS[i][k] + part * (COLOURS[i + 1][k] - COLOURS[i][k])).round() as u8;
+    format!("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_grain_is_a_circle_and_nothing_is_no_picture() {
+        let table = "x_m,z_m,radius_m,u_particle_m_s\n0,0,0.003,0\n0.006,0,0.003,0.5\n";
+        let svg = grains_svg(table.as_bytes()).unwrap();
+        assert_eq!(svg.matches("<circle").count(), 2);
+        assert!(svg.contains("#443a78") && svg.contains("#f0d232"), "slow and fast differ");
+        assert!(grains_svg("x_m,z_m,radius_m,u_particle_m_s\n".as_bytes()).is_none());
+    }
+}
