@@ -3,3 +3,5 @@
 mod bed_results;
 pub mod exact;
 pub mod laminar;
+#[cfg(test)]
+mod tests;
