@@ -54,8 +54,8 @@ pub enum Fault {
     Syntax {
         /// what the parser says
         message: String,
-        /// the line with its quantity in quotes, if that is what is missing
-        quoted: Option<String>,
+        /// what the line probably means, and how that is written
+        meant: Option<String>,
     },
     /// A table or key that no model has.
     #[error("unknown {what} \"{name}\"{place}")]
@@ -213,6 +213,19 @@ pub enum Fault {
         /// whether the law is `none`
         exact: bool,
     },
+    /// A law whose packing is looser than that of the bed.
+    #[error("phi_max = {phi_max} of {law} must reach {bed}, that of the bed at rest (closures.dilatancy)")]
+    PackedBeyond {
+        /// the law
+        law: &'static str,
+        /// its phi_max
+        phi_max: f64,
+        /// that of the bed
+        bed: f64,
+    },
+    /// The pseudo-time iteration with the exact yield.
+    #[error("the iteration needs a regularisation: the viscosity of grains at rest is infinite")]
+    IterationNeedsCreep,
     /// A law that the model cannot hold.
     #[error("closures.{family} law \"{law}\" does not go with {model}")]
     LawMismatch {
@@ -284,6 +297,8 @@ impl Fault {
             Self::FrictionFalls { .. } => "friction-falls",
             Self::TooSteep { .. } => "too-steep",
             Self::RegularisationSize { .. } => "regularisation-size",
+            Self::PackedBeyond { .. } => "packed-beyond",
+            Self::IterationNeedsCreep => "iteration-needs-creep",
             Self::LawMismatch { .. } => "law-mismatch",
             Self::RoughnessAboveFlow { .. } => "roughness-above-flow",
             Self::UnknownQuantity { .. } => "unknown-quantity",
@@ -312,6 +327,7 @@ impl Fault {
             Self::NoRoomForFlow { height, .. } => Some(format!("more than 0 and less than {height} m")),
             Self::Floating { fluid, .. } => Some(format!("more than {fluid} kg/m3")),
             Self::Jammed { phi_max, .. } => Some(format!("less than {phi_max}")),
+            Self::PackedBeyond { bed, .. } => Some(format!("at least {bed}; below_packed = \"published\"")),
             Self::ThinnerThanAGrain { diameter, .. } => Some(format!("at least {diameter} m")),
             Self::FrictionFalls { mu_s, .. } => Some(format!("more than {mu_s}")),
             Self::TooSteep { definition: "sine", .. } => Some("less than 1".into()),
@@ -336,7 +352,7 @@ impl Fault {
             }
             Self::NotUsed { users, .. } => Some(format!("remove it; used by {}", users.join(", "))),
             Self::Missing { description, .. } if !description.is_empty() => Some(description.clone()),
-            Self::Syntax { quoted: Some(line), .. } => Some(format!("a quantity with a unit is a text: {line}")),
+            Self::Syntax { meant: Some(line), .. } => Some(line.clone()),
             Self::Unit { error: UnitError::UnknownUnit { nearest: Some(n), .. }, .. } => {
                 Some(format!("did you mean \"{n}\"?"))
             }
@@ -354,6 +370,7 @@ impl Fault {
                 Some("`bedload new` writes a case to start from".into())
             }
             Self::Floating { .. } => Some("grains.density must exceed fluid.density".into()),
+            Self::IterationNeedsCreep => Some("give [regularisation] a law and a lambda, or take newton".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
             Self::CheckLevel { column: true, .. } => Some("for example at = \"10 mm\"".into()),
             Self::CheckLevel { .. } => Some("remove it".into()),

@@ -15,6 +15,7 @@ mod reference;
 mod render;
 pub mod scene;
 pub mod schema;
+pub mod sheet;
 pub mod shipped;
 pub mod tables;
 mod wording;

@@ -7,10 +7,13 @@
 pub mod dilatancy;
 pub mod drag;
 pub mod friction;
+pub mod lid;
 pub mod mixing_length;
 pub mod mixture_viscosity;
+pub mod rearrangement;
 pub mod regularisation;
 pub mod side_wall;
+pub mod suspension;
 pub mod wall;
 
 /// How far a closure has been tested here.
@@ -75,16 +78,26 @@ pub static CATALOGUE: &[&Info] = &[
     &friction::coulomb::INFO,
     &friction::mu_i::INFO,
     &friction::mu_iv::INFO,
+    &rearrangement::THREE,
+    &rearrangement::FREE_FALL,
     &mixture_viscosity::clear::INFO,
     &mixture_viscosity::einstein::INFO,
     &mixture_viscosity::boyer::INFO,
     &dilatancy::none::INFO,
+    &dilatancy::phi_i::INFO,
     &dilatancy::phi_iv::INFO,
     &drag::none::INFO,
     &drag::carman_kozeny::INFO,
+    &drag::dallavalle::INFO,
     &mixing_length::none::INFO,
     &mixing_length::prandtl::INFO,
     &mixing_length::li_sawamoto::INFO,
+    &suspension::NONE,
+    &suspension::rouse::INFO,
+    &lid::FREE_SURFACE,
+    &lid::STRESS,
+    &lid::SOLVED,
+    &lid::colebrook_white::INFO,
     &wall::rough::INFO,
     &side_wall::none::INFO,
     &side_wall::graf_altinakar_published::INFO,

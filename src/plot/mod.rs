@@ -12,6 +12,7 @@ mod png;
 mod profile;
 mod report;
 mod several;
+mod sheet;
 mod svg;
 mod theme;
 #[cfg(test)]

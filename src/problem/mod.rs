@@ -2,10 +2,12 @@
 
 mod bed;
 mod others;
+mod sheet;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
+pub use sheet::{BedReading, SheetFlow, SheetMethod};
 
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;
@@ -40,6 +42,8 @@ pub enum Model {
     Laminar(RegularisedBed),
     /// Bingham fluid between two planes, numerically
     Bingham(RegularisedPlane),
+    /// two-layer sheet flow
+    SheetFlow(SheetFlow),
 }
 
 /// Faults found while comparing values with each other, by path.
@@ -87,6 +91,9 @@ impl Problem {
                 (bed::laminar(scene, case.model, &mut faults).map(Model::Laminar), scene.grid.cells)
             }
             Scene::Bingham(scene) => (others::bingham(scene, &mut faults).map(Model::Bingham), scene.grid.cells),
+            Scene::SheetFlow(scene) => {
+                (sheet::sheet_flow(scene, case.model, &mut faults).map(Model::SheetFlow), scene.grid.cells)
+            }
         };
         let mut faults: Vec<(String, Fault)> =
             faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();

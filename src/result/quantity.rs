@@ -41,6 +41,9 @@ catalogue! {
     SHEAR_RATE = "shear_rate_particle_1_s", "shear rate of the grains", "|du_p/dz|", "1/s", "magnitude of the velocity gradient of the solid phase, of the material in a one-phase model";
     INERTIAL_NUMBER = "inertial_number", "inertial number", "I", "1", "d |du_p/dz| sqrt(ρ_p/P_p)";
     MIXING_LENGTH = "mixing_length_m", "mixing length", "l_m", "m", "length of the eddy-viscosity closure";
+    STOKES = "stokes_number", "Stokes number", "St", "1", "free-fall over viscous rearrangement time";
+    RATIO_R = "rearrangement_ratio", "rearrangement ratio", "r", "1", "free-fall over turbulent rearrangement time";
+    CUMULATIVE_FLUX = "cumulative_flux_m2_s", "cumulative flux", "Π", "m²/s", "integral of the solid flux density from the bottom";
     EDDY_VISCOSITY = "eddy_viscosity_m2_s", "eddy viscosity", "ν_t", "m²/s", "kinematic eddy viscosity";
 }
 
@@ -78,12 +81,29 @@ catalogue! {
     PLUG_VELOCITY = "plug_velocity_m_s", "velocity of the plug", "u_plug", "m/s", "velocity of the unyielded core";
     INERTIAL_NUMBER_FILM = "inertial_number", "inertial number", "I", "1", "d |du/dz| sqrt(ρ_p/P_p), uniform over the film";
     SURFACE_VELOCITY = "surface_velocity_m_s", "surface velocity", "u(H)", "m/s", "velocity of the free surface";
-    ROUGHNESS = "roughness_m", "equivalent roughness", "k_s", "m", "Nikuradse's equivalent sand roughness";
+    ROUGHNESS = "roughness_m", "equivalent roughness", "k_s", "m", "Nikuradse's equivalent sand roughness; for a sheet flow the mixing length at the bed level";
     ROUGHNESS_LENGTH = "roughness_length_m", "roughness length", "z_0", "m", "elevation at which the logarithmic profile vanishes, k_s/30";
     REYNOLDS_ROUGHNESS = "roughness_reynolds", "roughness Reynolds number", "k_s+", "1", "u_* k_s/ν";
     REYNOLDS_PARTICLE = "particle_reynolds", "particle Reynolds number", "Re_p", "1", "ρ_f |u_f - u_p| d/η with the largest slip between the phases, or |du_p/dz| d where the phases move together";
     REGULARISATION_RATE = "regularisation_error_transport_rate", "error of the transport rate by the regularisation", "Δq_p/q_p", "1", "transport rate minus that of the exact yield on the same mesh, relative to it";
     REGULARISATION_VELOCITY = "regularisation_error_velocity", "error of the velocity by the regularisation", "|ΔU|/|U|", "1", "relative L2 norm over the nodes of the velocity minus that of the exact yield on the same mesh";
+    TRANSPORT_RATE_BED = "transport_rate_bed_m2_s", "transport rate of the bed layer", "q_p bed", "m²/s", "part of the transport rate below the bed level";
+    TRANSPORT_RATE_SUSPENSION = "transport_rate_suspension_m2_s", "transport rate in suspension", "q_p susp", "m²/s", "part of the transport rate above the bed level";
+    TRANSPORT_SHARE_BED = "transport_share_bed", "share of the bed layer", "q_p bed/q_p", "1", "part of the transport rate below the bed level over the whole";
+    SHEET_THICKNESS = "sheet_thickness_m", "sheet thickness", "δ_s", "m", "bed level minus the highest level below which φ is within 0.1 % of φ_max";
+    SHEET_THICKNESS_FULL = "sheet_thickness_balance_m", "sheet thickness by the momentum balance", "δ_s (32)", "m", "θ d/(μ_s φ_m cos β - (ρ_f/(ρ_p - ρ_f) + φ_m) sin β), φ_m the mean solid fraction of the sheet";
+    SHEET_THICKNESS_FLAT = "sheet_thickness_flat_m", "sheet thickness by the balance without slope", "δ_s (33)", "m", "θ d/(μ_s φ_m)";
+    SHEET_PHI = "sheet_phi", "mean solid fraction of the sheet", "φ_m", "1", "solid volume of the sheet over its thickness";
+    STRESS_CROSSOVER = "stress_crossover", "stress crossover", "(z_x - h_c)/δ_s", "1", "height over the bottom of the sheet at which grains and fluid carry equal stresses, in sheet thicknesses";
+    VISCOUS_SHARE = "viscous_share", "viscous share of the stress", "τ_f/τ", "1", "largest viscous over total shear stress in the upper half of the sheet";
+    SLOPE_SINE = "slope_sine", "slope", "sin β", "1", "sine of the angle of the flow with the horizontal";
+    LID_STRESS = "lid_stress_Pa", "stress of the lid", "τ_top", "Pa", "shear stress that the lid takes from the fluid";
+    SOLID_VOLUME_BED = "solid_volume_bed_m", "solid volume of the bed", "V_bed", "m", "integral of φ below the bed level";
+    SOLID_VOLUME_SUSPENSION = "solid_volume_suspension_m", "solid volume in suspension", "V_susp", "m", "integral of φ above the bed level";
+    SUSPENSION_NUMBER = "suspension_number", "suspension number", "w_s/u_*", "1", "settling velocity over friction velocity";
+    FREE_FALL_SHARE = "free_fall_share", "share in free fall", "", "1", "part of the moving solid volume of the bed layer whose rearrangement is a free fall";
+    TURBULENT_SHARE = "turbulent_share", "share in turbulent fall", "", "1", "part of the moving solid volume of the bed layer whose rearrangement time is turbulent";
+    CHANGE_OF_TYPE = "change_of_type_m", "depth of the change of type", "m_0", "m", "solid volume under the bed level down to which the equations as published are of another type";
     REYNOLDS = "reynolds", "Reynolds number", "Re", "1", "ρ_f U_m H/η";
 }
 

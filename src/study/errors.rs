@@ -72,7 +72,12 @@ impl Focus {
                 yield_velocity: plane.tau_0 * plane.h / plane.eta,
                 bingham: "τ_0 H/(η U_m)",
             }),
-            Model::Ouriemi(_) | Model::BinghamPlane(_) | Model::BagnoldFilm(_) | Model::LogLaw(_) => None,
+            // The measures are those of a bed under two planes; a sheet flow has none of its own yet.
+            Model::SheetFlow(_)
+            | Model::Ouriemi(_)
+            | Model::BinghamPlane(_)
+            | Model::BagnoldFilm(_)
+            | Model::LogLaw(_) => None,
         }
     }
 
