@@ -124,10 +124,18 @@ mod tests {
     }
 
     #[test]
+    fn the_ends_of_a_range_belong_to_it() {
+        let range = Range { variable: "phi", min: 0.3, max: 0.585 };
+        assert!([0.3, 0.5, 0.585].into_iter().all(|phi| range.contains(phi)));
+        assert!([0.299, 0.586, f64::NAN].into_iter().all(|phi| !range.contains(phi)));
+    }
+
+    #[test]
     fn ranges_are_written_as_a_reader_expects() {
         let range = |min, max| Range { variable: "phi", min, max }.to_string();
         assert_eq!(range(0.0, 0.05), "0 <= phi <= 0.05");
         assert_eq!(range(f64::NEG_INFINITY, 1.0), "phi <= 1");
         assert_eq!(range(1.0, f64::INFINITY), "phi >= 1");
+        assert_eq!(range(f64::NEG_INFINITY, f64::INFINITY), "any phi");
     }
 }

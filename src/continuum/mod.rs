@@ -4,3 +4,5 @@ mod bed_results;
 pub mod exact;
 pub mod laminar;
 pub mod sheet_flow;
+#[cfg(test)]
+mod tests;
