@@ -82,6 +82,15 @@ impl Felt {
         f64::from_bits(std::mem::take(self.memory[id as usize][3].get_mut()))
     }
 
+    /// Counts the drag since it was last taken `times` times.
+    #[cfg(test)]
+    pub(super) fn repeat(&mut self, times: f64) {
+        for memory in &mut self.memory {
+            let sum = memory[3].get_mut();
+            *sum = (times * f64::from_bits(*sum)).to_bits();
+        }
+    }
+
     /// All that the grains carry, in the order of their names.
     pub(super) fn carried(&self) -> impl Iterator<Item = f64> + '_ {
         self.memory.iter().flatten().map(|word| f64::from_bits(word.load(Relaxed)))

@@ -104,7 +104,7 @@ fn unwritable(error: &std::io::Error) -> SolveError {
 }
 
 /// Fixed grains side by side at random elevations in steps; none on another bottom.
-fn relief(flow: &Coupled) -> Vec<Grain> {
+pub(super) fn relief(flow: &Coupled) -> Vec<Grain> {
     let (largest, step) = flow.relief;
     let mut fixed = pack::bottom(&flow.bed);
     // Steps on either side of the mean: with an even number of them, none is at the mean.
@@ -130,7 +130,7 @@ pub(super) fn level(phi: &[f64], height: f64, d: f64) -> f64 {
 }
 
 impl<'a> Run<'a> {
-    fn begin(flow: &'a Coupled, watch: &mut dyn Watch) -> Result<ControlFlow<(), Self>, SolveError> {
+    pub(super) fn begin(flow: &'a Coupled, watch: &mut dyn Watch) -> Result<ControlFlow<(), Self>, SolveError> {
         let bed = &flow.bed;
         let fixed = (bed.bottom == Bottom::Steps).then(|| relief(flow));
         let ControlFlow::Continue(mut engine) = deposit(bed, fixed, watch)? else {
@@ -175,7 +175,7 @@ impl<'a> Run<'a> {
     }
 
     /// Follows grains and fluid to the end.
-    fn follow(&mut self, watch: &mut dyn Watch) -> Result<Status, SolveError> {
+    pub(super) fn follow(&mut self, watch: &mut dyn Watch) -> Result<Status, SolveError> {
         let (clock, begun) = (Instant::now(), self.made);
         let frames = u64::from(self.flow.bed.discrete.frames);
         while self.made < self.periods {
@@ -279,7 +279,7 @@ impl<'a> Run<'a> {
         self.averages.sample(&self.engine, block);
     }
 
-    fn checkpoint(&self) -> Vec<u8> {
+    pub(super) fn checkpoint(&self) -> Vec<u8> {
         let mut to = Writer::default();
         self.engine.save(&mut to);
         for count in [self.steps, self.sampled, self.periods, self.made, self.turn, self.draws] {
@@ -292,7 +292,7 @@ impl<'a> Run<'a> {
         to.seal(&name(self.flow))
     }
 
-    fn resumed(flow: &'a Coupled, bytes: &[u8]) -> Result<Self, SolveError> {
+    pub(super) fn resumed(flow: &'a Coupled, bytes: &[u8]) -> Result<Self, SolveError> {
         let read = || -> Result<Self, CheckpointError> {
             let mut from = Reader::open(bytes, &name(flow))?;
             let contact = law(&flow.bed.contact).map_err(|_| CheckpointError::OtherCase)?;
