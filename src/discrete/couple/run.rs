@@ -251,10 +251,9 @@ impl<'a> Run<'a> {
         let dt = self.engine.settings().dt;
         let time = if speed > 0.0 { depth / speed } else { f64::INFINITY };
         self.turn = (time / dt).round().clamp(1.0, 1e12) as u64;
-        let (phi, reynolds) = (self.exchange.phi(), self.exchange.column.tau_reynolds());
-        let mut deviations: Vec<f64> = (0..phi.len())
-            .map(|i| walk.deviation(0.5 * (reynolds[i] + reynolds[i + 1]), 1.0 - phi[i], self.flow.rho_f))
-            .collect();
+        let (phi, reynolds) = (self.exchange.phi(), self.exchange.reynolds());
+        let mut deviations: Vec<f64> =
+            (0..phi.len()).map(|i| walk.deviation(reynolds[i], 1.0 - phi[i], self.flow.rho_f)).collect();
         deviations.push(0.0);
         let seed = u64::from(self.flow.bed.discrete.seed);
         let grains = self.engine.grains();
