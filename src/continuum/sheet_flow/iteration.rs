@@ -71,7 +71,7 @@ impl Column {
             }
             if turn % LOOK == 0 {
                 bed::residual(&self.flow, &self.mesh, &state, &mut residual);
-                let closing = self.setting.closing_residual(&self.flow, &self.meshes, &self.mesh, &state);
+                let closing = self.setting.closing_residual(self, &state);
                 let norm = self.norm(&residual, &closing, &state);
                 history.push(norm);
                 smallest = smallest.min(norm);

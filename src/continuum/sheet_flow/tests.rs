@@ -1,13 +1,14 @@
 //! The discrete equations against the continuous ones, and the methods against each other.
 
 use super::bed::{self, Linearised, STRIDE, State};
-use super::column::Setting;
+use super::column::{Floor, Setting};
 use super::flow::{Flow, Unknowns};
 use super::iteration::Pace;
 use super::layers::Layers;
 use super::mesh::Mesh;
 use super::newton::Column;
 use super::solve::solve;
+use super::start::Guess;
 use crate::case::Case;
 use crate::problem::{Model, Problem};
 
@@ -35,7 +36,7 @@ fn fields(m: f64) -> [f64; 5] {
 /// The laws at m for the manufactured fields.
 fn laws(flow: &Flow, m: f64) -> super::flow::Cell<f64> {
     let [r, s, w, d, _] = fields(m);
-    let x = Unknowns { r, s, w: (w, w), d: (d, d), m: BED, sine: SINE };
+    let x = Unknowns { r, s, w, d, m: BED, sine: SINE, rest: 0.0 };
     flow.cell(m / BED, 1.0, &x)
 }
 
@@ -48,7 +49,7 @@ fn the_discrete_operators_are_those_of_the_equations_at_order_two() {
         let nodes: Vec<f64> = (0..=cells).map(|j| j as f64 / cells as f64).collect();
         let middles = nodes.windows(2).map(|p| 0.5 * (p[0] + p[1])).collect();
         let mesh = Mesh { nodes, middles };
-        let mut state = State { x: vec![0.0; STRIDE * cells], tau_b: 1.0, sine: SINE, m: BED };
+        let mut state = State { x: vec![0.0; STRIDE * cells], tau_b: 1.0, sine: SINE, m: BED, rest: 0.0 };
         for c in 0..cells {
             let (node, middle) = (fields(BED * mesh.nodes[c]), fields(BED * mesh.middles[c]));
             state.x[STRIDE * c..STRIDE * (c + 1)].copy_from_slice(&[node[4], node[2], node[3], middle[0], middle[1]]);
@@ -86,9 +87,10 @@ fn the_discrete_operators_are_those_of_the_equations_at_order_two() {
 
 #[test]
 fn the_jacobian_is_the_derivative_of_the_residual() {
-    for settings in [&[][..], &["regularisation.law=simple", "regularisation.lambda=1e-3"][..]] {
+    let creep = &["regularisation.law=simple", "regularisation.lambda=1e-3"][..];
+    for (settings, floor) in [(&[][..], Floor::Yield), (&[][..], Floor::Bottom), (creep, Floor::Bottom)] {
         let (flow, setting) = scaled("sheet_1d_cowen", settings);
-        let (column, mut state) = Column::start(flow, setting, 60, 0.7);
+        let (column, mut state) = Column::start(flow, setting, 60, Guess { floor, friction: 0.7, mobile: None });
         // Without slip the turbulent time is infinite, and its root has no difference.
         (0..column.mesh.cells()).for_each(|c| state.x[STRIDE * c + 1] += 0.02);
         let n = column.mesh.cells();
@@ -124,7 +126,7 @@ fn the_iteration_ends_where_newton_does() {
     for case in ["sheet_1d_sumer82", "sheet_1d_cowen"] {
         let (flow, setting) = scaled(case, &["regularisation.law=simple", "regularisation.lambda=1e-6"]);
         let solved = solve(flow, setting, 80).unwrap();
-        let (_, guess) = Column::start(flow, setting, 80, 0.8);
+        let (_, guess) = Column::start(flow, setting, 80, Guess { floor: Floor::Bottom, friction: 0.8, mobile: None });
         let pace = Pace { dt: 1.0, tolerance: 1e-10, most: 100_000 };
         let iterated = solved.column.iterate(guess, &pace, &mut Vec::new(), |_, _| false).unwrap();
         let psi = |state: &State| Layers::new(&solved.column, state).psi();
@@ -141,8 +143,7 @@ fn newton_takes_few_steps() {
         assert!(solved.history.len() <= 30, "{case}: {}", solved.history.len());
         assert!(solved.history.last().unwrap() < &1e-12);
         // Grains at rest lie under moving ones, and nowhere else.
-        let moves = |c: usize| solved.state.r(c) > flow.friction.mu_s;
-        let first = (0..solved.column.mesh.cells()).find(|&c| !moves(c)).unwrap();
-        assert!((first..solved.column.mesh.cells()).all(|c| !moves(c)), "{case}");
+        assert!((0..solved.column.mesh.cells()).all(|c| solved.state.r(c) > flow.friction.mu_s), "{case}");
+        assert!(solved.state.rest > 0.0);
     }
 }
