@@ -137,16 +137,16 @@ const FIRST: f64 = 0.75;
 
 /// Near the interface `d(m r)/dm = F(r)`, F the drag per solid volume, which falls steeply with r as the grains spread:
 /// `m dr/dm = F - r` relaxes at the rate `1 - dF/dr`, about this many times 1/m.
-const RELAXATION: f64 = 16.0;
+const RELAXATION: f64 = 20.0;
 
-/// Weight of the cell below node `j` in the drag there: 1/2, and more where the relaxation is faster than the mesh, so that
-/// it does not oscillate (exponential fitting: exact for a linear relaxation, order 2).
+/// Weight of the cell below node `j` in the drag there: 1/2, and more where the relaxation is faster than the mesh, just as
+/// much as keeps it from oscillating.
 fn weight_below(mesh: &Mesh, j: usize) -> f64 {
     if j == 0 {
         return 1.0;
     }
     let z = RELAXATION * (mesh.middles[j] - mesh.middles[j - 1]) / mesh.nodes[j];
-    if z < 1e-3 { 0.5 + z / 12.0 } else { 1.0 - 1.0 / z + 1.0 / z.exp_m1() }
+    (1.0 - 1.0 / z).max(0.5)
 }
 
 /// Share of the volume of node `j` that lies below the cut.
@@ -328,7 +328,8 @@ fn node(
 fn at_yield<T: Real>(flow: &Flow, last: Side<T>, w: T, (sine, m): (T, T), under_cut: f64) -> T {
     let zero = T::constant(0.0);
     let cosine = (-(sine * sine) + 1.0).sqrt();
-    let still = Side { phi: last.phi, s: zero, tau_p: cosine * m * flow.friction.mu_s, tau_f: zero, dz: zero, dm: zero };
+    let still =
+        Side { phi: last.phi, s: zero, tau_p: cosine * m * flow.friction.mu_s, tau_f: zero, dz: zero, dm: zero };
     // The slip vanishes at the yield level; nothing shears there, and the stress of the fluid is all viscous.
     let (w, node) = ((w * 0.25, zero), Weights { own: 1.0, below: 0.0, under_cut });
     let (s, _) = momentum(flow, (last, still), w, node, sine);

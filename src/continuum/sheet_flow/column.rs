@@ -94,7 +94,12 @@ impl Setting {
     }
 
     /// The closing equations for phi, decompaction and velocity at the interface, and tau_b, sine, m, rest; but the last.
-    fn equations<T: Real>(&self, flow: &Flow, meshes: &Meshes, [phi, d, u, tau_b, sine, m, rest]: [T; INPUTS]) -> [T; 3] {
+    fn equations<T: Real>(
+        &self,
+        flow: &Flow,
+        meshes: &Meshes,
+        [phi, d, u, tau_b, sine, m, rest]: [T; INPUTS],
+    ) -> [T; 3] {
         let h_p = (m + rest) / flow.dilatancy.phi_max + d;
         let height = -h_p + self.height;
         let drive = match (self.tau_b, self.sine) {

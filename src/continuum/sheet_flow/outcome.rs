@@ -214,7 +214,9 @@ fn balances(solved: &Solved, layers: &Layers) -> Vec<Balance> {
             (solid + layers.totals.volume) / whole - 1.0,
             "grains in the bed and in suspension against those of the bed at rest",
         ),
-        BedReading::Final => (solid / (state.m + state.rest) - 1.0, "integral of the solid fraction of the bed against its grains"),
+        BedReading::Final => {
+            (solid / (state.m + state.rest) - 1.0, "integral of the solid fraction of the bed against its grains")
+        }
     };
     let mut balances = vec![
         balance("momentum", momentum, "stress at the bottom of the bed less its weight against that at the bed level"),

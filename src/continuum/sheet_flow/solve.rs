@@ -14,12 +14,12 @@ use crate::problem::BedReading;
 /// turn: on meshes of the moving grains, then on those of the whole bed, where the yield level finds itself.
 const TRIALS: [(Floor, usize, f64); 10] = [
     (Floor::Yield, 60, 0.8),
-    (Floor::Yield, 60, 0.5),
+    (Floor::Yield, 60, 0.9),
     (Floor::Bottom, 80, 0.8),
-    (Floor::Bottom, 80, 0.6),
-    (Floor::Bottom, 120, 0.8),
-    (Floor::Bottom, 50, 0.8),
     (Floor::Bottom, 80, 0.9),
+    (Floor::Bottom, 80, 0.6),
+    (Floor::Bottom, 50, 0.8),
+    (Floor::Bottom, 120, 0.8),
     (Floor::Bottom, 120, 0.5),
     (Floor::Bottom, 200, 0.7),
     (Floor::Bottom, 160, 0.9),
@@ -56,8 +56,6 @@ pub struct Solved {
     pub history: Vec<f64>,
     /// solid volume under the interface down to which the equations change type
     pub change_of_type: f64,
-    /// how many first guesses went nowhere
-    pub trial: usize,
 }
 
 /// A column with the exact yield, its solution, and the depth of the change of type.
@@ -70,16 +68,16 @@ type Exact = (Column, State, f64);
 pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stalled> {
     let mut history = Vec::new();
     let mut last = Stalled::new(f64::INFINITY, 0);
-    for (number, trial) in TRIALS.into_iter().map(Some).chain([None]).enumerate() {
+    for trial in TRIALS.into_iter().map(Some).chain([None]) {
         let attempt = coarse(flow, setting, trial, cells, &mut history)
             .and_then(|from| refine(flow, setting, cells, &from, &mut history));
         match attempt {
             Ok((column, state, change_of_type)) if flow.lambda == 0.0 => {
-                return Ok(Solved { column, state, exact: None, history, change_of_type, trial: 0 });
+                return Ok(Solved { column, state, exact: None, history, change_of_type });
             }
             Ok((column, state, change_of_type)) => {
                 let (column, state, exact) = column.creep(&state, flow.lambda, &mut history)?;
-                return Ok(Solved { column, state, exact, history, change_of_type, trial: number });
+                return Ok(Solved { column, state, exact, history, change_of_type });
             }
             Err(stalled) => {
                 if stalled.residual < last.residual || stalled.reason.is_some() {
@@ -177,7 +175,7 @@ pub fn iterate(
         state = column.iterate(state, pace, &mut history, &mut stop)?;
         change_of_type = column.change_of_type(&state);
     }
-    Ok(Solved { column, state, exact: None, history, change_of_type, trial: 0 })
+    Ok(Solved { column, state, exact: None, history, change_of_type })
 }
 
 impl Column {
@@ -234,7 +232,11 @@ impl Column {
                 Ok(next) if at_rest && self.setting.level < wanted.height => next,
                 _ => {
                     let residual = history.last().copied().unwrap_or(f64::INFINITY);
-                    break Err(Stalled { residual, iterations: history.len(), reason: Some(Reason::RunsAway(self.setting.level)) });
+                    break Err(Stalled {
+                        residual,
+                        iterations: history.len(),
+                        reason: Some(Reason::RunsAway(self.setting.level)),
+                    });
                 }
             };
         };

@@ -11,9 +11,9 @@ use crate::closures::lid::Lid;
 /// Solid fraction of the moving layer in the first guess.
 const MEAN_PHI: f64 = 0.45;
 /// Share of the cells in the bed.
-const IN_BED: f64 = 0.6;
+const IN_BED: f64 = 0.55;
 /// Scale of the mesh under the interface, in grain diameters of solid volume.
-pub(super) const TOP: f64 = 0.003;
+pub(super) const TOP: f64 = 0.002;
 
 /// What a first guess starts from.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,7 +27,8 @@ pub struct Guess {
 }
 
 impl Column {
-    /// The mesh of `cells` cells for a flow, and a first guess on it.
+    /// The mesh of `cells` cells for a flow, and a first guess on it: the grains shear at a share of the range of their
+    /// friction wherever the stress is enough for that, and carry all of it elsewhere.
     #[must_use]
     pub fn start(flow: Flow, setting: Setting, cells: usize, from: Guess) -> (Self, State) {
         let room = setting.height - setting.level;
@@ -69,9 +70,7 @@ impl Column {
         for c in 0..n {
             let depth = m * mesh.middles[c];
             let total = tau_b + sine * depth + flow.fluid_weight(sine) * depth / MEAN_PHI;
-            // Down to rest at the yield level; on a mesh of the whole bed, as much as there is to carry.
-            let fall = if self.floor == Floor::Yield { 1.0 - mesh.middles[c] } else { 1.0 };
-            let r = (law.mu_s + friction * fall * (law.mu_2 - law.mu_s)).min(total / (cosine * depth));
+            let r = (law.mu_s + friction * (law.mu_2 - law.mu_s)).min(total / (cosine * depth));
             state.x[STRIDE * c + 3] = r;
             state.x[STRIDE * c + 4] = (total - r * cosine * depth).clamp(0.0, total);
             let node = (1.0 - m * mesh.nodes[c] / mobile).max(0.0);

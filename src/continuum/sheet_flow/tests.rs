@@ -42,7 +42,7 @@ fn laws(flow: &Flow, m: f64) -> super::flow::Cell<f64> {
 
 #[test]
 fn the_discrete_operators_are_those_of_the_equations_at_order_two() {
-    let (flow, _) = scaled("sheet_1d_sumer91", &["regularisation.law=simple", "regularisation.lambda=0.1"]);
+    let (flow, _) = scaled("sheet_1d_sumer91", &["regularisation.law=simple", "regularisation.lambda=1e-6"]);
     let flow = Flow { cut: 0.0, ..flow };
     let derivative = |f: &dyn Fn(f64) -> f64, m: f64| (f(m + 1e-5) - f(m - 1e-5)) / 2e-5;
     let worst = |cells: usize| {
@@ -140,7 +140,7 @@ fn newton_takes_few_steps() {
     for case in ["sheet_1d_sumer82", "sheet_1d_sumer91", "sheet_1d_sumer99", "sheet_1d_cowen"] {
         let (flow, setting) = scaled(case, &[]);
         let solved = solve(flow, setting, 300).unwrap();
-        assert!(solved.history.len() <= 30, "{case}: {}", solved.history.len());
+        assert!(solved.history.len() <= 16, "{case}: {}", solved.history.len());
         assert!(solved.history.last().unwrap() < &1e-12);
         // Grains at rest lie under moving ones, and nowhere else.
         assert!((0..solved.column.mesh.cells()).all(|c| solved.state.r(c) > flow.friction.mu_s), "{case}");
