@@ -1,7 +1,8 @@
 //! What joins the layers: drive, lid, and the reading that fixes the amount of grains.
 
-use super::bed::{self, LOCAL, LocalCell, STRIDE, State};
+use super::bed::{self, STRIDE, State};
 use super::flow::Flow;
+use super::linear::{self, LOCAL, LocalCell};
 use super::newton::Column;
 use super::suspension::{Inflow, Meshes, Totals, march};
 use crate::closures::lid::{ColebrookWhite, Lid, LidStress};
@@ -161,7 +162,7 @@ impl Setting {
             let mut entries = vec![(2, x.slope[1]), (0, x.slope[2]), (1, x.slope[2])];
             if by != 0.0 {
                 for (c, weight) in [(0, weights.0), (1, weights.1)] {
-                    bed::spread(c, n, &cells[c].phi.slope, by * weight, |k, slope| entries.push((k, slope)));
+                    linear::spread(c, n, &cells[c].phi.slope, by * weight, |k, slope| entries.push((k, slope)));
                 }
             }
             entries.retain(|(_, slope)| *slope != 0.0);
@@ -170,12 +171,12 @@ impl Setting {
         match column.floor {
             Floor::Bottom => (closing.residual[3], closing.by_globals[3][3]) = (state.rest, 1.0),
             Floor::Yield => {
-                let x = bed::yield_slopes(flow, mesh, state, &cells[n - 1]);
+                let x = linear::yield_slopes(flow, mesh, state, &cells[n - 1]);
                 closing.residual[3] = x.value;
                 closing.by_globals[3] = [0.0, x.slope[5], x.slope[4], x.slope[6]];
                 let mut entries = vec![(STRIDE * (n - 1) + 1, x.slope[LOCAL])];
                 let slope = std::array::from_fn(|i| x.slope[i]);
-                bed::spread(n - 1, n, &slope, 1.0, |k, slope| entries.push((k, slope)));
+                linear::spread(n - 1, n, &slope, 1.0, |k, slope| entries.push((k, slope)));
                 closing.by_unknowns[3] = entries;
             }
         }

@@ -3,9 +3,10 @@
 
 use nalgebra::{LU, Matrix4, U4, Vector4};
 
-use super::bed::{self, Linearised, LocalCell, STRIDE, State};
+use super::bed::{self, STRIDE, State};
 use super::column::{Closing, Floor, Setting};
 use super::flow::Flow;
+use super::linear::{Linearised, LocalCell, local_cell};
 use super::mesh::Mesh;
 use super::suspension::Meshes;
 
@@ -69,7 +70,7 @@ impl Column {
     /// The cells of the bed with their derivatives.
     #[must_use]
     pub fn local_cells(&self, state: &State) -> Vec<LocalCell> {
-        (0..self.mesh.cells()).map(|c| bed::local_cell(&self.flow, &self.mesh, state, c)).collect()
+        (0..self.mesh.cells()).map(|c| local_cell(&self.flow, &self.mesh, state, c)).collect()
     }
 
     /// Solves from `state`; the residuals go to `history`.

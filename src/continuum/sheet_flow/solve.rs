@@ -25,7 +25,7 @@ const TRIALS: [(Floor, usize, f64); 10] = [
     (Floor::Bottom, 160, 0.9),
 ];
 /// The first guess of the iteration.
-const REST: Guess = Guess { floor: Floor::Bottom, friction: 0.8, mobile: None };
+pub const REST: Guess = Guess { floor: Floor::Bottom, friction: 0.8, mobile: None };
 /// Relative residual at which a coarse solution is good enough to start from.
 const ROUGH: f64 = 1e-5;
 /// A cut that is short by less than this share is long enough.
@@ -190,7 +190,7 @@ impl Column {
     #[must_use]
     pub fn change_of_type(&self, state: &State) -> f64 {
         let negative = |c: &usize| {
-            let cell = super::bed::local_cell(&self.flow, &self.mesh, state, *c);
+            let cell = super::linear::local_cell(&self.flow, &self.mesh, state, *c);
             let pressure = cell.pressure.value;
             let slope = cell.tau_f.slope[2] - pressure * cell.tau_f.slope[3];
             pressure + cell.phi.value * slope < 0.0

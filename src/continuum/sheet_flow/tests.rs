@@ -1,15 +1,19 @@
 //! The discrete equations against the continuous ones, and the methods against each other.
 
-use super::bed::{self, Linearised, STRIDE, State};
+use super::bed::{self, STRIDE, State};
 use super::column::{Floor, Setting};
 use super::flow::{Flow, Unknowns};
 use super::iteration::Pace;
 use super::layers::Layers;
+use super::linear::Linearised;
 use super::mesh::Mesh;
 use super::newton::Column;
 use super::solve::solve;
 use super::start::Guess;
 use crate::case::Case;
+use crate::closures::mixing_length::{LiSawamoto, MixingLength};
+use crate::closures::mixture_viscosity::{Boyer, MixtureViscosity};
+use crate::column::{Bottom, FluidColumn, Forcing, Grid, Medium, Setup, Top, ViscousForm};
 use crate::problem::{Model, Problem};
 
 fn scaled(case: &str, settings: &[&str]) -> (Flow, Setting) {
@@ -146,4 +150,75 @@ fn newton_takes_few_steps() {
         assert!((0..solved.column.mesh.cells()).all(|c| solved.state.r(c) > flow.friction.mu_s), "{case}");
         assert!(solved.state.rest > 0.0);
     }
+}
+
+/// One medium for the fluid column and for the cells of the bed: the same shear rate, the same viscous and Reynolds stresses,
+/// the same drag. All in the units of the model. The solid fraction is uniform and that at which the mixing length does not
+/// grow, so that both have the same length between two cells.
+#[test]
+fn the_fluid_column_finds_the_same_stresses_in_the_same_medium() {
+    for case in ["sheet_1d_sumer91", "sheet_1d_cowen"] {
+        let (shipped, _) = scaled(case, &[]);
+        for (phi, length) in [(0.3, 0.7), (0.5, 0.2), (0.59, 0.03)] {
+            let viscosity = MixtureViscosity::Boyer(Boyer { phi_max: 0.6 });
+            let mut flow = Flow { viscosity, phi_l: phi, ..shipped };
+            flow.dilatancy.phi_max = phi;
+            let law = LiSawamoto { phi_max: phi, ..LiSawamoto { kappa: flow.kappa, ..li_sawamoto(case) } };
+            let setup = Setup {
+                viscosity,
+                form: ViscousForm::Mixture,
+                mixing_length: MixingLength::LiSawamoto(law),
+                ..Setup::laminar(1.0, flow.nu)
+            };
+            let cells = 12;
+            let grid = Grid::uniform(0.0, 3.0, cells).unwrap();
+            let velocity: Vec<f64> = grid.centres().iter().map(|z| 0.4 * z).collect();
+            let beta = vec![(1.0 - phi) * flow.drag(phi, 1.0); cells];
+            let medium = Medium { phi: vec![phi; cells], velocity: velocity.clone(), beta, force: vec![0.0; cells] };
+            let forcing = Forcing {
+                drive: 0.3,
+                bottom: Bottom::Flow { velocity: 0.1, mixing_length: length },
+                top: Top::Stress(1.2),
+            };
+            let mut column = FluidColumn::new(grid.clone(), setup).unwrap();
+            column.step(&medium, &forcing, f64::INFINITY).unwrap();
+            let mixture: Vec<f64> =
+                column.velocity().iter().zip(&velocity).map(|(u, w)| (1.0 - phi) * u + phi * w).collect();
+            for f in 1..cells {
+                let (tau, reynolds) = (column.tau_viscous()[f], column.tau_reynolds()[f]);
+                // Grains that do not yield keep phi; the decompaction carries the length.
+                let x = Unknowns {
+                    r: 0.1,
+                    s: tau + reynolds,
+                    w: 0.0,
+                    d: length / flow.kappa,
+                    m: 5.0,
+                    sine: 0.0,
+                    rest: 1.0,
+                };
+                let cell = flow.cell(0.5, 0.01, &x);
+                let rate = (mixture[f] - mixture[f - 1]) / grid.distances()[f];
+                assert!((cell.phi - phi).abs() < 1e-15 && (cell.length - length).abs() < 1e-13);
+                assert!((cell.rate / rate - 1.0).abs() < 1e-12, "{case} {phi}: {} {rate}", cell.rate);
+                assert!((cell.tau_f / tau - 1.0).abs() < 1e-12, "{case} {phi}: {} {tau}", cell.tau_f);
+                assert!(((x.s - cell.tau_f) / reynolds - 1.0).abs() < 1e-12, "{case} {phi}: {reynolds}");
+            }
+            let mut taken = vec![0.0; cells];
+            // The drag alone: without viscous stress on the grains.
+            let still = FluidColumn::new(grid, Setup { form: ViscousForm::Fluid, ..setup }).unwrap();
+            let slip = 0.3;
+            let mut still = still;
+            still.set_velocity(&velocity.iter().map(|w| w + slip / (1.0 - phi)).collect::<Vec<_>>()).unwrap();
+            let coefficient = flow.drag(phi, slip) / slip;
+            let medium = Medium { beta: vec![(1.0 - phi) * coefficient; cells], ..medium };
+            still.force_on_grains(&medium, &mut taken).unwrap();
+            assert!(taken.iter().all(|force| (force / flow.drag(phi, slip) - 1.0).abs() < 1e-12), "{taken:?}");
+        }
+    }
+}
+
+fn li_sawamoto(case: &str) -> LiSawamoto {
+    let problem = Problem::new(&Case::load(case, &[]).unwrap()).unwrap();
+    let Model::SheetFlow(sheet) = problem.model else { panic!("a sheet flow") };
+    sheet.mixing_length
 }
