@@ -137,28 +137,41 @@ fn settle(
     Ok(ControlFlow::Continue(engine))
 }
 
+/// The bed as it is once its bottom lies: a slice takes the place of the plane on which it was deposited.
+#[must_use]
+pub(super) fn resting(bed: &GrainBed) -> GrainBed {
+    GrainBed { bottom: if bed.bottom == Bottom::Slice { Bottom::Steps } else { bed.bottom }, ..*bed }
+}
+
+/// Lets the mobile grains of `bed` fall onto its bottom, or onto the grains `fixed`, until they rest.
+pub(super) fn deposit(
+    bed: &GrainBed,
+    fixed: Option<Vec<Grain>>,
+    watch: &mut dyn Watch,
+) -> Result<ControlFlow<(), Engine<LinearSpring>>, SolveError> {
+    let mut grains = fixed.unwrap_or_else(|| pack::bottom(bed));
+    if bed.bottom == Bottom::Slice {
+        // Six layers deposited on a plane; the slice is taken in their middle.
+        let few = GrainBed { mobile: (6.0 * bed.size[0] * bed.size[1] / (bed.d * bed.d)).round() as usize, ..*bed };
+        let ControlFlow::Continue(below) = settle(&few, &pack::cloud(&few, 0.0), watch)? else {
+            return Ok(ControlFlow::Break(()));
+        };
+        grains = pack::slice(&below.grains().listed(), 2.5 * bed.d, bed.d);
+    }
+    // Above the highest of the fixed grains.
+    let floor = match bed.bottom {
+        Bottom::Plane => 0.0,
+        Bottom::Steps => 0.5 * bed.d,
+        Bottom::Slice => bed.d,
+    };
+    grains.extend(pack::cloud(bed, floor));
+    settle(&resting(bed), &grains, watch)
+}
+
 impl<'a> Run<'a> {
     /// Deposits the bed and tilts it.
     fn begin(bed: &'a GrainBed, watch: &mut dyn Watch) -> Result<ControlFlow<(), Self>, SolveError> {
-        let mut fixed = pack::bottom(bed);
-        if bed.bottom == Bottom::Slice {
-            // Six layers deposited on a plane; the slice is taken in their middle.
-            let few = GrainBed { mobile: (6.0 * bed.size[0] * bed.size[1] / (bed.d * bed.d)).round() as usize, ..*bed };
-            let ControlFlow::Continue(below) = settle(&few, &pack::cloud(&few, 0.0), watch)? else {
-                return Ok(ControlFlow::Break(()));
-            };
-            fixed = pack::slice(&below.grains().listed(), 2.5 * bed.d, bed.d);
-        }
-        // Above the highest of the fixed grains.
-        let floor = match bed.bottom {
-            Bottom::Plane => 0.0,
-            Bottom::Steps => 0.5 * bed.d,
-            Bottom::Slice => bed.d,
-        };
-        let mut grains = fixed;
-        grains.extend(pack::cloud(bed, floor));
-        let resting = GrainBed { bottom: if bed.bottom == Bottom::Slice { Bottom::Steps } else { bed.bottom }, ..*bed };
-        let ControlFlow::Continue(mut engine) = settle(&resting, &grains, watch)? else {
+        let ControlFlow::Continue(mut engine) = deposit(bed, None, watch)? else {
             return Ok(ControlFlow::Break(()));
         };
         let limit = stability::limit(&engine).step.min(stability::of_pair(&law(&bed.contact)?, 0.5 * bed.mass()));
@@ -182,10 +195,7 @@ impl<'a> Run<'a> {
         let read = || {
             let mut from = Reader::open(bytes, &name(bed))?;
             let law = law(&bed.contact).map_err(|_| super::checkpoint::CheckpointError::OtherCase)?;
-            let domain = pack::domain(&GrainBed {
-                bottom: if bed.bottom == Bottom::Slice { Bottom::Steps } else { bed.bottom },
-                ..*bed
-            });
+            let domain = pack::domain(&resting(bed));
             let engine = Engine::restore(&mut from, domain, law, threads())?;
             let (steps, made) = (from.whole()?, from.whole()?);
             let corrupt = super::checkpoint::CheckpointError::Corrupt { what: "the number of slices" };
