@@ -16,6 +16,7 @@ pub mod rearrangement;
 pub mod regularisation;
 pub mod side_wall;
 pub mod suspension;
+pub mod transport;
 pub mod wall;
 
 /// How far a closure has been tested here.
