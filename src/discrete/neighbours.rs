@@ -135,7 +135,7 @@ impl Tile {
         };
         let padding = |pair: &Pair| pair.i as usize == grains && pair.j as usize == grains + 1;
         let starts = self.starts.len() == self.grains.len() + 1 && self.starts.is_sorted();
-        let lists = self.pairs.len() % GROUP == 0
+        let lists = self.pairs.len().is_multiple_of(GROUP)
             && self.springs.len() == self.pairs.len()
             && self.touching.len() == groups
             && listed <= self.pairs.len()
