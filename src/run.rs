@@ -1,9 +1,11 @@
 //! From a problem to an outcome: the one entry point that the command line and every study call.
 
-use crate::closures::{Info, contact::linear_spring, dilatancy::phi_iv, drag::carman_kozeny};
-use crate::closures::{friction, mixing_length, wall};
+use crate::closures::contact::linear_spring;
+use crate::closures::dilatancy::{phi_i, phi_iv};
+use crate::closures::drag::{carman_kozeny, dallavalle};
+use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
-use crate::continuum::laminar;
+use crate::continuum::{laminar, sheet_flow};
 use crate::discrete::{bed as grain_bed, impact};
 use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
@@ -24,6 +26,7 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::LogLaw(wall) => log_law::run(wall, problem.cells, watch),
         Model::Laminar(bed) => laminar::run(bed, problem.cells, watch),
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
+        Model::SheetFlow(flow) => sheet_flow::run(flow, problem.cells, watch),
         Model::Grains(bed) => grain_bed::run(bed, watch),
         Model::Impact(one) => impact::run(one, watch),
     };
@@ -40,6 +43,7 @@ pub fn equations(problem: &Problem) -> String {
         Model::LogLaw(wall) => log_law::equations(wall),
         Model::Laminar(bed) => laminar::equations(bed),
         Model::Bingham(plane) => laminar::bingham_equations(plane),
+        Model::SheetFlow(flow) => sheet_flow::equations(flow),
         Model::Grains(bed) => grain_bed::equations(bed),
         Model::Impact(one) => impact::equations(one),
     }
@@ -59,6 +63,16 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
         Model::Grains(_) | Model::Impact(_) => vec![&linear_spring::INFO],
         Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
+        Model::SheetFlow(flow) => vec![
+            &friction::mu_i::INFO,
+            &phi_i::INFO,
+            flow.rearrangement.info(),
+            flow.viscosity.info(),
+            &dallavalle::INFO,
+            &mixing_length::li_sawamoto::INFO,
+            flow.suspension.info(),
+            flow.lid.info(),
+        ],
         Model::LogLaw(_) => vec![&mixing_length::prandtl::INFO, &wall::rough::INFO],
     }
 }

@@ -76,8 +76,8 @@ impl Document {
         let (table, errors) = DeTable::parse_recoverable(&content);
         let faults = errors.iter().map(|error| {
             let bytes = error.span().unwrap_or(0..0);
-            let hint = unquoted_quantity(&content, bytes.start);
-            let fault = Fault::Syntax { message: error.message().trim().to_owned(), quoted: hint };
+            let hint = meant_line(&content, bytes.start);
+            let fault = Fault::Syntax { message: error.message().trim().to_owned(), meant: hint };
             Violation::new(fault, String::new(), Span { text: 0, bytes })
         });
         let faults = faults.collect();
@@ -233,8 +233,8 @@ fn insert(at: &mut Node, path: &[&str], node: Option<Node>, key: &Span) -> Resul
     }
 }
 
-/// `key = 6 mm`: the quantity that should have been quoted, if the line of `at` looks like one.
-fn unquoted_quantity(content: &str, at: usize) -> Option<String> {
+/// What the line of `at` should have been: `key = 6 mm` a quoted quantity, `key = 0,6` a number with a decimal point.
+fn meant_line(content: &str, at: usize) -> Option<String> {
     let at = at.min(content.len());
     let start = content.as_bytes()[..at].iter().rposition(|b| *b == b'\n').map_or(0, |i| i + 1);
     let line = content.get(start..)?.lines().next()?;
@@ -242,5 +242,9 @@ fn unquoted_quantity(content: &str, at: usize) -> Option<String> {
     let value = value.split('#').next()?.trim();
     let number = value.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit() || c == '.');
     let unit = value.contains(|c: char| c.is_alphabetic() || "%\u{b0}".contains(c));
-    (number && unit && value.len() < 40).then(|| format!("{} = \"{value}\"", key.trim()))
+    if number && !unit && value.matches(',').count() == 1 && !value.contains(char::is_whitespace) {
+        return Some(format!("numbers have a decimal point: {} = {}", key.trim(), value.replace(',', ".")));
+    }
+    let quoted = || format!("a quantity with a unit is a text: {} = \"{value}\"", key.trim());
+    (number && unit && value.len() < 40).then(quoted)
 }

@@ -54,8 +54,8 @@ pub enum Fault {
     Syntax {
         /// what the parser says
         message: String,
-        /// the line with its quantity in quotes, if that is what is missing
-        quoted: Option<String>,
+        /// what the line probably means, and how that is written
+        meant: Option<String>,
     },
     /// A table or key that no model has.
     #[error("unknown {what} \"{name}\"{place}")]
@@ -225,6 +225,19 @@ pub enum Fault {
         /// whether the law is `none`
         exact: bool,
     },
+    /// A law whose packing is looser than that of the bed.
+    #[error("phi_max = {phi_max} of {law} must reach {bed}, that of the bed at rest (closures.dilatancy)")]
+    PackedBeyond {
+        /// the law
+        law: &'static str,
+        /// its phi_max
+        phi_max: f64,
+        /// that of the bed
+        bed: f64,
+    },
+    /// The pseudo-time iteration with the exact yield.
+    #[error("the iteration needs a regularisation: the viscosity of grains at rest is infinite")]
+    IterationNeedsCreep,
     /// A law that the model cannot hold.
     #[error("closures.{family} law \"{law}\" does not go with {model}")]
     LawMismatch {
@@ -297,80 +310,12 @@ impl Fault {
             Self::TooSteep { .. } => "too-steep",
             Self::GrainRoom { .. } => "grain-room",
             Self::RegularisationSize { .. } => "regularisation-size",
+            Self::PackedBeyond { .. } => "packed-beyond",
+            Self::IterationNeedsCreep => "iteration-needs-creep",
             Self::LawMismatch { .. } => "law-mismatch",
             Self::RoughnessAboveFlow { .. } => "roughness-above-flow",
             Self::UnknownQuantity { .. } => "unknown-quantity",
             Self::CheckLevel { .. } => "check-level",
-        }
-    }
-
-    /// What is allowed there.
-    #[must_use]
-    pub fn allowed(&self) -> Option<String> {
-        match self {
-            Self::Unknown { allowed, .. }
-            | Self::NotUsed { allowed, .. }
-            | Self::UnknownWord { allowed, .. }
-            | Self::Drives { allowed, .. } => Some(allowed.join(", ")),
-            Self::RegularisationSize { .. } => {
-                Some("one of lambda, lambda_scaled with a law; neither with law = \"none\"".into())
-            }
-            Self::LawMismatch { allowed, .. } => Some(allowed.join(", ")),
-            Self::Missing { allowed, .. } | Self::NotFinite { allowed, .. } | Self::OutOfRange { allowed, .. } => {
-                Some(allowed.clone())
-            }
-            Self::WrongType { expected, .. } => Some(expected.clone()),
-            Self::Unit { unit, .. } if unit == "1" => Some("a pure number".into()),
-            Self::Unit { unit, .. } => Some(format!("a number in {unit}, or a text such as \"1 {unit}\"")),
-            Self::NoRoomForFlow { height, .. } => Some(format!("more than 0 and less than {height} m")),
-            Self::Floating { fluid, .. } => Some(format!("more than {fluid} kg/m3")),
-            Self::Jammed { phi_max, .. } => Some(format!("less than {phi_max}")),
-            Self::ThinnerThanAGrain { diameter, .. } => Some(format!("at least {diameter} m")),
-            Self::FrictionFalls { mu_s, .. } => Some(format!("more than {mu_s}")),
-            Self::TooSteep { definition: "sine", .. } => Some("less than 1".into()),
-            Self::TooSteep { .. } => Some("less than 90 deg".into()),
-            Self::RoughnessAboveFlow { height, .. } => Some(format!("k_s less than {} m", 30.0 * height)),
-            Self::TooLarge { limit } => Some(format!("at most {limit} bytes")),
-            _ => None,
-        }
-    }
-
-    /// What to do about it.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
-        let meant = |nearest: &Option<String>| nearest.as_ref().map(|n| format!("did you mean \"{n}\"?"));
-        match self {
-            Self::NoSuchCase { nearest, .. } => {
-                Some(meant(nearest).unwrap_or_else(|| "`bedload list cases` shows the shipped ones".into()))
-            }
-            Self::UnknownWord { nearest, .. } | Self::UnknownQuantity { nearest, .. } => meant(nearest),
-            Self::Unknown { nearest, elsewhere, .. } => {
-                elsewhere.as_ref().map(|table| format!("it belongs to {table}")).or_else(|| meant(nearest))
-            }
-            Self::NotUsed { users, .. } => Some(format!("remove it; used by {}", users.join(", "))),
-            Self::Missing { description, .. } if !description.is_empty() => Some(description.clone()),
-            Self::Syntax { quoted: Some(line), .. } => Some(format!("a quantity with a unit is a text: {line}")),
-            Self::Unit { error: UnitError::UnknownUnit { nearest: Some(n), .. }, .. } => {
-                Some(format!("did you mean \"{n}\"?"))
-            }
-            Self::Unit { error: UnitError::NoUnit { text }, unit, .. } => {
-                Some(format!("write {text} without quotes if it is in {unit}, or \"{text} {unit}\""))
-            }
-            Self::Drives { given, .. } if given.len() > 1 => {
-                Some("keep one; `--set flow.KEY=` (an empty value) removes a key".into())
-            }
-            Self::Drives { .. } => Some("give exactly one".into()),
-            Self::BadSet { .. } => {
-                Some("for example --set flow.height=\"65 mm\"; an empty value removes the key".into())
-            }
-            Self::Empty | Self::Binary { .. } | Self::NotUtf8 { .. } => {
-                Some("`bedload new` writes a case to start from".into())
-            }
-            Self::Floating { .. } => Some("grains.density must exceed fluid.density".into()),
-            Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
-            Self::CheckLevel { column: true, .. } => Some("for example at = \"10 mm\"".into()),
-            Self::CheckLevel { .. } => Some("remove it".into()),
-            _ => None,
         }
     }
 }

@@ -73,7 +73,7 @@ impl Case {
                 Err(CaseError { document, violations, draft: Some(draft) })
             }
             Some((_, Err(error))) if sound => {
-                let fault = Fault::Syntax { message: error.to_string(), quoted: None };
+                let fault = Fault::Syntax { message: error.to_string(), meant: None };
                 let violation = Violation::new(fault, String::new(), document.root.value.clone());
                 Err(CaseError { document, violations: vec![violation], draft: None })
             }

@@ -6,6 +6,7 @@
 //!
 //! The schema is generated from the structs in [`tables`], and the same schema checks the files, so the two cannot drift.
 
+mod advice;
 pub mod checks;
 mod diagnose;
 mod document;
@@ -16,6 +17,7 @@ mod reference;
 mod render;
 pub mod scene;
 pub mod schema;
+pub mod sheet;
 pub mod shipped;
 pub mod tables;
 mod wording;

@@ -9,6 +9,7 @@ use super::checks::Check;
 use super::grain_tables::{
     Discrete, GrainBed, GrainClosures, GrainFlow, GrainsModel, ImpactFlow, ImpactModel, ImpactSteps,
 };
+use super::sheet::{SheetBed, SheetClosures, SheetFlowTable, SheetGrid, SheetModel, SheetRegularisation, SheetSolver};
 use super::tables::{
     About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamKindModel, BinghamModel, Film, FilmClosures, FilmFlow,
     Fluid, Grains, Grid, LaminarFlow, LaminarModel, LogLawModel, OuriemiModel, PlaneFlow, RegularisationTable,
@@ -168,6 +169,30 @@ scenes! {
         /// Cells of the solver.
         #[serde(default)]
         grid: YieldGrid,
+    }
+    /// Turbulent flow over a bed of grains that shear as dense granular flow, with a suspension above.
+    SheetFlow ("sheet-flow") {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: SheetBed,
+        /// Geometry and drive.
+        flow: SheetFlowTable,
+        /// The model.
+        model: SheetModel,
+        /// Laws.
+        closures: SheetClosures,
+        /// Small numbers.
+        #[serde(default)]
+        regularisation: SheetRegularisation,
+        /// Cells of the column.
+        #[serde(default)]
+        grid: SheetGrid,
+        /// The iteration.
+        #[serde(default)]
+        solver: SheetSolver,
     }
     /// A bed of spheres with friction, grain by grain, at rest or down a slope.
     GrainsBed ("grains") {

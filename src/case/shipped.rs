@@ -26,6 +26,12 @@ pub static CASES: &[(&str, &str)] = shipped![
     "laminar_1d_aussillous",
     "laminar_1d_muiv",
     "laminar_1d_ouriemi",
+    "sheet_1d_cowen",
+    "sheet_1d_sumer82",
+    "sheet_1d_sumer91",
+    "sheet_1d_sumer99",
+    "sheet_1d_type_a",
+    "sheet_1d_type_b",
 ];
 
 /// Content of the shipped case of that name.

@@ -186,9 +186,11 @@ fn trust(summary: &Summary) -> String {
     if let Some(error) = known.and_then(|(_, reported)| reported.stderr) {
         return format!("± {}", readable(error, quantity::TRANSPORT_RATE.unit));
     }
-    let lambda = summary.regularisation.get("lambda_scaled").and_then(Value::as_f64);
+    let lambda = |key: &str| summary.regularisation.get(key).and_then(Value::as_f64);
+    let lambda = lambda("lambda_scaled").or_else(|| lambda("lambda_1_s"));
     match (summary.results.get(quantity::REGULARISATION_RATE.name), lambda) {
         (Some(error), _) => format!("{:+.2e} by the regularisation", error),
+        (None, Some(lambda)) if lambda > 0.0 => "regularised".into(),
         (None, Some(_)) => "exact yield".into(),
         (None, None) => "closed form, exact to round-off".into(),
     }

@@ -8,10 +8,13 @@ pub mod contact;
 pub mod dilatancy;
 pub mod drag;
 pub mod friction;
+pub mod lid;
 pub mod mixing_length;
 pub mod mixture_viscosity;
+pub mod rearrangement;
 pub mod regularisation;
 pub mod side_wall;
+pub mod suspension;
 pub mod wall;
 
 /// How far a closure has been tested here.
@@ -76,16 +79,26 @@ pub static CATALOGUE: &[&Info] = &[
     &friction::coulomb::INFO,
     &friction::mu_i::INFO,
     &friction::mu_iv::INFO,
+    &rearrangement::THREE,
+    &rearrangement::FREE_FALL,
     &mixture_viscosity::clear::INFO,
     &mixture_viscosity::einstein::INFO,
     &mixture_viscosity::boyer::INFO,
     &dilatancy::none::INFO,
+    &dilatancy::phi_i::INFO,
     &dilatancy::phi_iv::INFO,
     &drag::none::INFO,
     &drag::carman_kozeny::INFO,
+    &drag::dallavalle::INFO,
     &mixing_length::none::INFO,
     &mixing_length::prandtl::INFO,
     &mixing_length::li_sawamoto::INFO,
+    &suspension::NONE,
+    &suspension::rouse::INFO,
+    &lid::FREE_SURFACE,
+    &lid::STRESS,
+    &lid::SOLVED,
+    &lid::colebrook_white::INFO,
     &wall::rough::INFO,
     &side_wall::none::INFO,
     &side_wall::graf_altinakar_published::INFO,
@@ -111,10 +124,18 @@ mod tests {
     }
 
     #[test]
+    fn the_ends_of_a_range_belong_to_it() {
+        let range = Range { variable: "phi", min: 0.3, max: 0.585 };
+        assert!([0.3, 0.5, 0.585].into_iter().all(|phi| range.contains(phi)));
+        assert!([0.299, 0.586, f64::NAN].into_iter().all(|phi| !range.contains(phi)));
+    }
+
+    #[test]
     fn ranges_are_written_as_a_reader_expects() {
         let range = |min, max| Range { variable: "phi", min, max }.to_string();
         assert_eq!(range(0.0, 0.05), "0 <= phi <= 0.05");
         assert_eq!(range(f64::NEG_INFINITY, 1.0), "phi <= 1");
         assert_eq!(range(1.0, f64::INFINITY), "phi >= 1");
+        assert_eq!(range(f64::NEG_INFINITY, f64::INFINITY), "any phi");
     }
 }

@@ -118,6 +118,20 @@ mod tests {
     }
 
     #[test]
+    fn papanastasiou_is_smooth_where_its_series_ends() {
+        // x/(1 - exp(-x)) and its derivative, without the cancellation of 1 - exp(-x).
+        let r = Regularisation { law: Smoothing::Papanastasiou, lambda: 0.3 };
+        for x in [1e-6_f64, 5e-5, 0.999e-4, 1.001e-4, 1e-3] {
+            for sign in [-1.0, 1.0] {
+                let (m, dm) = r.effective(0.3 * sign * x);
+                assert_relative_eq!(m, 0.3 * x / -(-x).exp_m1(), max_relative = 1e-14);
+                let exact = 0.5 + x / 6.0 - x.powi(3) / 180.0;
+                assert_relative_eq!(dm, sign * exact, max_relative = 1e-7);
+            }
+        }
+    }
+
+    #[test]
     fn derivatives_by_differences() {
         for law in LAWS {
             let r = Regularisation { law, lambda: 0.3 };

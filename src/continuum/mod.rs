@@ -3,3 +3,6 @@
 mod bed_results;
 pub mod exact;
 pub mod laminar;
+pub mod sheet_flow;
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,8 @@
 //! Numerical methods that know no physics.
 
+pub mod banded;
 pub mod block_thomas;
+pub mod dual;
 pub mod levels;
 pub mod quadrature;
 pub mod root;

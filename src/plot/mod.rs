@@ -13,6 +13,7 @@ mod png;
 mod profile;
 mod report;
 mod several;
+mod sheet;
 mod svg;
 mod theme;
 #[cfg(test)]

@@ -14,20 +14,33 @@ use super::{Axis, Curve, Dash, Figure, Level, Panel, Scale};
 pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
     let scene = Scene::new(profile, summary);
     let mut figures = Vec::new();
-    let panels: Vec<Panel> = [
+    let mut panels: Vec<Panel> = [
         scene.velocities(),
         scene.stresses(),
         scene.single("solid fraction φ", &quantity::PHI, GRAINS),
         scene.single("flux φuₚ", &quantity::FLUX, GRAINS),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    let mut turbulence: Vec<Panel> = [
         scene.single("mixing length", &quantity::MIXING_LENGTH, TURBULENCE),
         scene.single("eddy viscosity", &quantity::EDDY_VISCOSITY, TURBULENCE),
     ]
     .into_iter()
     .flatten()
     .collect();
+    // More than five panels side by side leave no room for their titles.
+    if !scene.has_grains {
+        panels.append(&mut turbulence);
+    }
     if !panels.is_empty() {
         figures.push(scene.figure("profiles", panels, scene.elevation()));
     }
+    if !turbulence.is_empty() {
+        figures.push(scene.figure("turbulence", turbulence, scene.elevation()));
+    }
+    figures.extend(super::sheet::sheet_figures(profile, summary));
     if scene.is_logarithmic()
         && let Some(velocities) = scene.velocities()
     {

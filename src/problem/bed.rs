@@ -194,6 +194,12 @@ fn laminar_bed(
     let dilatancy = match closures.dilatancy {
         Dilatancy::None => None,
         Dilatancy::PhiIv(law) if rise.is_some() => Some(law),
+        Dilatancy::PhiI(_) => {
+            let allowed = vec![dilatancy::none::INFO.law, dilatancy::phi_iv::INFO.law];
+            let fault = mismatch("dilatancy", dilatancy::phi_i::INFO.law, model.into(), allowed);
+            faults.push(("closures.dilatancy.law", fault));
+            None
+        }
         Dilatancy::PhiIv(_) => {
             let model = format!("{model} unless the friction is {}", friction::mu_iv::INFO.law);
             let allowed = vec![dilatancy::none::INFO.law];

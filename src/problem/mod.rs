@@ -3,11 +3,13 @@
 mod bed;
 mod grains;
 mod others;
+mod sheet;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
 pub use grains::{GrainBed, Impact};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
+pub use sheet::{BedReading, SheetFlow, SheetMethod};
 
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;
@@ -42,6 +44,8 @@ pub enum Model {
     Laminar(RegularisedBed),
     /// Bingham fluid between two planes, numerically
     Bingham(RegularisedPlane),
+    /// two-layer sheet flow
+    SheetFlow(SheetFlow),
     /// a bed of spheres, grain by grain
     Grains(GrainBed),
     /// the impact of one sphere
@@ -93,6 +97,9 @@ impl Problem {
                 (bed::laminar(scene, case.model, &mut faults).map(Model::Laminar), scene.grid.cells)
             }
             Scene::Bingham(scene) => (others::bingham(scene, &mut faults).map(Model::Bingham), scene.grid.cells),
+            Scene::SheetFlow(scene) => {
+                (sheet::sheet_flow(scene, case.model, &mut faults).map(Model::SheetFlow), scene.grid.cells)
+            }
             Scene::GrainsBed(scene) => {
                 let bed = grains::bed(scene, &mut faults);
                 (bed.map(Model::Grains), bed.map_or(0, |bed| bed.mobile))

@@ -48,6 +48,42 @@ pub enum SolveError {
         /// mu_s phi
         limit: f64,
     },
+    /// A bed that the flow sets in motion down to its bottom.
+    #[error(
+        "the whole bed moves: at a Shields number of {shields:.4} the grains yield down to the bottom of the bed, {bed_m:.6} m below its top"
+    )]
+    NothingAtRest {
+        /// thickness of the bed in the flow [m]
+        bed_m: f64,
+        /// Shields number
+        shields: f64,
+    },
+    /// A suspension that takes the bed away.
+    #[error(
+        "the suspension takes the bed away: it would hold {suspended_m:.6} m of solid volume, the bed has {bed_m:.6} m"
+    )]
+    BedSuspended {
+        /// solid volume in suspension, per area [m]
+        suspended_m: f64,
+        /// solid volume of the bed at rest, per area [m]
+        bed_m: f64,
+    },
+    /// A bed whose loosening feeds itself.
+    #[error(
+        "no level of the bed holds its grains: from {rest_m:.6} m at rest it was raised to {reached_m:.6} m, where nothing stays at rest; a looser bed leaves a thinner, steeper flow, which loosens it more"
+    )]
+    BedRunsAway {
+        /// bed level at rest [m]
+        rest_m: f64,
+        /// level up to which it was raised [m]
+        reached_m: f64,
+    },
+    /// A lid that would have to drive the flow.
+    #[error("the lid would have to push: its stress comes out as {stress_pa:.6} Pa against the flow, less than none")]
+    LidPushes {
+        /// stress that the lid takes from the fluid [Pa]
+        stress_pa: f64,
+    },
     /// A granular film that accelerates without end.
     #[error("no steady film: tan(slope) = {tangent:.6} is not below mu_2 = {mu_2:.6}")]
     NoSteadyFilm {
@@ -141,6 +177,10 @@ impl SolveError {
         match self {
             Self::WholeBedMoves { .. } => "whole-bed-moves",
             Self::NoStaticBed { .. } => "no-static-bed",
+            Self::NothingAtRest { .. } => "nothing-at-rest",
+            Self::BedSuspended { .. } => "bed-suspended",
+            Self::BedRunsAway { .. } => "bed-runs-away",
+            Self::LidPushes { .. } => "lid-pushes",
             Self::NoSteadyFilm { .. } => "no-steady-film",
             Self::OutOfReach { .. } => "out-of-reach",
             Self::NoRoot { .. } => "no-root",
@@ -160,6 +200,12 @@ impl SolveError {
             Self::WholeBedMoves { limit_pa_m, .. } => {
                 format!("drive it with less than {limit_pa_m:.4} Pa/m, or make the bed deeper (bed.level)")
             }
+            Self::BedRunsAway { .. } => "lower the drive, or leave more room above the bed (flow.height)".into(),
+            Self::NothingAtRest { .. } => "lower the drive or the slope, or make the bed deeper (bed.level)".into(),
+            Self::BedSuspended { .. } => {
+                "lower the drive, make the bed deeper (bed.level), or take grains that settle faster".into()
+            }
+            Self::LidPushes { .. } => "raise the slope, or ask for a lower Shields number".into(),
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
             Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),

@@ -72,8 +72,14 @@ impl Focus {
                 yield_velocity: plane.tau_0 * plane.h / plane.eta,
                 bingham: "τ_0 H/(η U_m)",
             }),
-            Model::Ouriemi(_) | Model::BinghamPlane(_) | Model::BagnoldFilm(_) | Model::LogLaw(_) => None,
-            Model::Grains(_) | Model::Impact(_) => None,
+            // The measures are those of a bed under two planes; sheet flow and grains have none of their own yet.
+            Model::SheetFlow(_)
+            | Model::Ouriemi(_)
+            | Model::BinghamPlane(_)
+            | Model::BagnoldFilm(_)
+            | Model::LogLaw(_)
+            | Model::Grains(_)
+            | Model::Impact(_) => None,
         }
     }
 

@@ -15,6 +15,7 @@ mod never_panics;
 mod paths;
 mod report;
 mod schema;
+mod sheet;
 mod studies;
 mod support;
 mod sweep;

@@ -80,6 +80,11 @@ mod tests {
     }
 
     #[test]
+    fn what_is_left_out_is_as_published() {
+        assert_eq!(toml::from_str::<PhiIv>("").unwrap(), LAW);
+    }
+
+    #[test]
     fn exact_under_a_constant_shear_rate() {
         // (q + shear)^2 = shear^2 + phi_m z below a free top.
         let (s, depth): (f64, f64) = (0.04, 0.5);

@@ -76,6 +76,12 @@ mod tests {
     }
 
     #[test]
+    fn what_is_left_out_is_as_published() {
+        let law: CarmanKozeny = toml::from_str("").unwrap();
+        assert_eq!(law, CarmanKozeny { k_ck: 180.0, phi_min: 0.0 });
+    }
+
+    #[test]
     fn the_permeability_stops_growing() {
         let law = CarmanKozeny { k_ck: 180.0, phi_min: 0.3 };
         let published = CarmanKozeny { phi_min: 0.0, ..law };

@@ -1,6 +1,7 @@
 //! Force between the fluid and the grains.
 
 pub mod carman_kozeny;
+pub mod dallavalle;
 pub mod none;
 
 use schemars::JsonSchema;
@@ -8,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Info;
 pub use carman_kozeny::CarmanKozeny;
+pub use dallavalle::Dallavalle;
 
 /// Drag law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -18,6 +20,8 @@ pub enum Drag {
     None,
     /// Darcy's law with the permeability of Carman and Kozeny.
     CarmanKozeny(CarmanKozeny),
+    /// Drag of single grains, hindered by their neighbours.
+    Dallavalle(Dallavalle),
 }
 
 impl Drag {
@@ -27,6 +31,7 @@ impl Drag {
         match self {
             Self::None => &none::INFO,
             Self::CarmanKozeny(_) => &carman_kozeny::INFO,
+            Self::Dallavalle(_) => &dallavalle::INFO,
         }
     }
 }

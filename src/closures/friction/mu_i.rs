@@ -15,6 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::closures::{Info, Range, Standing};
+use crate::numerics::dual::Real;
 
 /// Where the dense-flow law holds; below it the flow is quasi-static, above it collisional.
 pub const INERTIAL_RANGE: Range = Range { variable: "inertial_number", min: 0.0, max: 2.0 };
@@ -61,6 +62,22 @@ impl MuI {
             None
         }
     }
+
+    /// The inertial number at which the regularised friction `mu(I) I/(I + creep)` is `r`, between 0 and mu_2; `creep` is
+    /// the regularisation lambda times the rearrangement time. Closed form, and for `creep = 0` the exact yield: the
+    /// positive root of `(mu_2 - r) I^2 - (I_0 (r - mu_s) + r creep) I - r creep I_0 = 0`.
+    #[must_use]
+    pub fn mobilised<T: Real>(&self, r: T, creep: T) -> T {
+        let a = -r + self.mu_2;
+        let above = (r - self.mu_s) * self.i_0;
+        if creep.value() == 0.0 {
+            return if above.value() > 0.0 { above / a } else { T::constant(0.0) };
+        }
+        let (b, c) = (above + r * creep, r * creep * self.i_0);
+        let root = (b * b + a * c * 4.0).sqrt();
+        // The form without a difference of nearly equal numbers.
+        if b.value() >= 0.0 { (b + root) / (a * 2.0) } else { c * 2.0 / (root - b) }
+    }
 }
 
 #[cfg(test)]
@@ -84,5 +101,18 @@ mod tests {
         }
         assert_eq!(LAW.inertial_number(0.1), Some(0.0));
         assert_eq!(LAW.inertial_number(0.64), None);
+    }
+
+    #[test]
+    fn mobilised_is_the_inverse_of_the_regularised_law() {
+        for creep in [1e-14, 1e-9, 1e-3, 1.0] {
+            for r in [1e-3, 0.2, 0.379, 0.38, 0.381, 0.5, 0.63] {
+                let i = LAW.mobilised(r, creep);
+                assert_relative_eq!(LAW.mu(i) * i / (i + creep), r, max_relative = 1e-11);
+            }
+        }
+        assert_eq!(LAW.mobilised(0.3, 0.0), 0.0);
+        assert_eq!(Some(LAW.mobilised(0.5, 0.0)), LAW.inertial_number(0.5));
+        assert_relative_eq!(LAW.mobilised(0.5, 1e-15), LAW.mobilised(0.5, 0.0), max_relative = 1e-13);
     }
 }

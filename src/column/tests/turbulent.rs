@@ -44,6 +44,19 @@ fn log_law_over_a_rough_wall_is_exact_on_any_grid() {
 }
 
 #[test]
+fn log_law_over_a_rough_wall_among_grains() {
+    // Only the fluid between the grains carries the stress, rho eps l_m^2 u'^2 = tau: u_*/eps^(1/2) stands for u_*.
+    let (z_0, phi) = (2e-4, 0.36);
+    let forcing = Forcing { drive: 0.0, bottom: Bottom::Rough { z_0, kappa: KAPPA }, top: Top::Stress(TAU) };
+    let grid = graded(0.1, 20);
+    let grains = medium(&grid, |_| phi, |_| 0.0, |_| 0.0);
+    let setup = Setup { mixing_length: MixingLength::Prandtl(Prandtl { kappa: KAPPA }), ..turbulent(1e-15) };
+    let (column, step) = steady(grid, setup, &grains, forcing);
+    assert!(error(&column, |z| U_STAR / (0.8 * KAPPA) * (z / z_0).ln()) < 1e-11);
+    assert_relative_eq!(step.balance.bottom, TAU, max_relative = 1e-12);
+}
+
+#[test]
 fn log_law_above_a_level_in_the_flow_is_exact() {
     // The upper part of the same flow: the velocity at its lowest level is given, and the mixing length that it has there.
     let (z_0, level) = (2e-4, 0.01);

@@ -6,7 +6,7 @@
 //! function is odd and increasing, so it has one inverse; with the exact yield it jumps from -y to y at rest.
 
 use crate::closures::friction::MuIv;
-use crate::problem::Regularisation;
+use crate::closures::regularisation::{Regularisation, Smoothing};
 
 /// An element of the mesh: one viscosity, one yield stress.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +58,11 @@ impl Element {
             let (_, slope) = self.solid(flow, regularisation);
             return (flow.copysign(t), 1.0 / (self.e + slope));
         }
+        if regularisation.law == Smoothing::Simple && self.rise.is_none() {
+            let gamma = self.simple(size, regularisation.lambda);
+            let (_, slope) = self.solid(gamma, regularisation);
+            return (gamma.copysign(t), 1.0 / (self.e + slope));
+        }
         let mut gamma = flow.max(0.5 * self.creep(size, regularisation)).min(high);
         for _ in 0..200 {
             let (solid, slope) = self.solid(gamma, regularisation);
@@ -95,6 +100,13 @@ impl Element {
         if b > 0.0 { 2.0 * half * excess / (b + root) } else { 0.5 * (root - b) / self.e }
     }
 
+    /// The shear rate under the stress `size` by the simple law: the root of `e gamma^2 + (e lambda + y - size) gamma = lambda size`.
+    fn simple(&self, size: f64, lambda: f64) -> f64 {
+        let b = self.e * lambda + self.y - size;
+        let root = (b * b + 4.0 * self.e * lambda * size).sqrt();
+        if b > 0.0 { 2.0 * lambda * size / (b + root) } else { 0.5 * (root - b) / self.e }
+    }
+
     /// Creep of the regularised solid under the stress `size`, from the paper's law: gamma = lambda size/(y - size).
     fn creep(&self, size: f64, regularisation: &Regularisation) -> f64 {
         if size < self.y { regularisation.lambda * size / (self.y - size) } else { 0.0 }
@@ -104,7 +116,6 @@ impl Element {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::problem::Smoothing;
     use approx::assert_relative_eq;
 
     #[test]

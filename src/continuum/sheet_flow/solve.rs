@@ -1,0 +1,243 @@
+//! From nothing to the solution: a coarse mesh first, without the term that makes the equations change type; then the wanted
+//! mesh with it; then the regularisation.
+
+use super::bed::{STRIDE, State};
+use super::column::Setting;
+use super::flow::Flow;
+use super::iteration::Pace;
+use super::newton::{Column, Stalled};
+use super::start::transfer;
+use crate::problem::BedReading;
+
+/// Cells of the coarse mesh, and share of the range of the friction at which the first guess lets the grains shear; tried in
+/// turn.
+const TRIALS: [(usize, f64); 10] =
+    [(80, 0.8), (80, 0.6), (120, 0.8), (50, 0.8), (80, 0.9), (50, 0.6), (120, 0.5), (200, 0.7), (80, 0.4), (160, 0.9)];
+/// A cut that is short by less than this share is long enough.
+const ROUNDING: f64 = 0.02;
+/// The cut lies this far below the change of type.
+const BEYOND: f64 = 1.2;
+/// Slip of the first guess in grains that creep, in units of the largest slip.
+const SEEPAGE: f64 = 1e-4;
+/// Regularisation, scaled, and pace of the iteration where no first guess of Newton's method leads anywhere.
+const DETOUR: (f64, Pace) = (1e-5, Pace { dt: 1.0, tolerance: 1e-6, most: 20_000 });
+/// Steps in which the bed level rises, as a share of the height above it.
+const STEP: f64 = 0.03;
+/// Factor between regularisations, where one step from the exact yield is too long.
+const LADDER: f64 = 100.0;
+/// Smallest rung of that ladder, scaled.
+const LOWEST: f64 = 1e-16;
+
+/// A solved column.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// the discrete column; its cut is the one that was used
+    pub column: Column,
+    /// its solution
+    pub state: State,
+    /// the solution with the exact yield on the same mesh, where there is a regularisation and it was computed
+    pub exact: Option<State>,
+    /// residuals, of all stages
+    pub history: Vec<f64>,
+    /// solid volume under the interface down to which the equations change type
+    pub change_of_type: f64,
+}
+
+/// A column with the exact yield, its solution, and the depth of the change of type.
+type Exact = (Column, State, f64);
+
+/// Solves the column on `cells` cells.
+///
+/// # Errors
+/// [`Stalled`] with the smallest residual if no way leads to a solution.
+pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stalled> {
+    let mut history = Vec::new();
+    let mut last = Stalled { residual: f64::INFINITY, iterations: 0, level: None };
+    for trial in TRIALS.into_iter().map(Some).chain([None]) {
+        let attempt = coarse(flow, setting, trial, cells, &mut history)
+            .and_then(|from| refine(flow, setting, cells, &from, &mut history));
+        match attempt {
+            Ok((mut column, state, change_of_type)) => {
+                let exact = (flow.lambda > 0.0).then(|| state.clone());
+                let state = column.creep(state, flow.lambda, &mut history)?;
+                return Ok(Solved { column, state, exact, history, change_of_type });
+            }
+            Err(stalled) => {
+                if stalled.residual < last.residual || stalled.level.is_some() {
+                    last = stalled;
+                }
+                if stalled.level.is_some() {
+                    break;
+                }
+            }
+        }
+    }
+    Err(Stalled { iterations: history.len(), ..last })
+}
+
+/// The exact yield on a coarse mesh, at the given bed level and without the term that makes the equations change type: from
+/// the guess of a trial, or for `None` by some turns of the iteration, which is slow and goes where Newton does not.
+fn coarse(
+    flow: Flow,
+    setting: Setting,
+    trial: Option<(usize, f64)>,
+    cells: usize,
+    history: &mut Vec<f64>,
+) -> Result<(Column, State), Stalled> {
+    let open = Flow { cut: f64::INFINITY, lambda: 0.0, ..flow };
+    // The amount of grains is settled last.
+    let setting = Setting { reading: BedReading::Final, ..setting };
+    let (size, share) = trial.unwrap_or(TRIALS[0]);
+    let (mut column, mut state) = Column::start(open, setting, size.min(cells), share);
+    if trial.is_none() {
+        column.flow.lambda = DETOUR.0;
+        state = column.iterate(state, &DETOUR.1, history, |_, _| false)?;
+        state = column.newton(state, history)?;
+        column.flow.lambda = 0.0;
+    }
+    let state = column.newton(state, history)?;
+    Ok((column, state))
+}
+
+/// From the coarse mesh to the wanted one, with the term, and to the wanted reading.
+fn refine(
+    flow: Flow,
+    setting: Setting,
+    cells: usize,
+    (coarse, rough): &(Column, State),
+    history: &mut Vec<f64>,
+) -> Result<Exact, Stalled> {
+    let exact = Flow { lambda: 0.0, ..flow };
+    let mobile = coarse.yield_volume(rough);
+    let (mut column, _) = Column::start_at(exact, setting, cells, (TRIALS[0].1, mobile));
+    let cut = column.flow.cut.max(BEYOND * coarse.change_of_type(rough));
+    column.flow.cut = cut;
+    let start = transfer(rough, &coarse.mesh, &column.mesh);
+    let mut attempt = column.newton(start.clone(), history);
+    if attempt.is_err() {
+        // The mesh first, the term then.
+        column.flow.cut = f64::INFINITY;
+        let open = column.newton(start.clone(), history);
+        column.flow.cut = cut;
+        attempt = open.and_then(|state| column.newton(state, history));
+    }
+    let mut state = match attempt {
+        Err(_) if setting.reading == BedReading::Initial => column.rise(start, history)?,
+        other => other?,
+    };
+    let mut depth = column.change_of_type(&state);
+    while BEYOND * depth > column.flow.cut * (1.0 + ROUNDING) {
+        column.flow.cut = BEYOND * depth;
+        state = column.newton(state, history)?;
+        depth = column.change_of_type(&state);
+    }
+    Ok((column, state, depth))
+}
+
+/// Iterates the column on `cells` cells from a first guess, with a cut as deep as it turns out to be needed.
+///
+/// # Errors
+/// As [`Column::iterate`].
+pub fn iterate(
+    flow: Flow,
+    setting: Setting,
+    cells: usize,
+    pace: &Pace,
+    mut stop: impl FnMut(usize, f64) -> bool,
+) -> Result<Solved, Stalled> {
+    let mut history = Vec::new();
+    let (mut column, guess) = Column::start(flow, setting, cells, TRIALS[0].1);
+    let mut state = column.iterate(guess, pace, &mut history, &mut stop)?;
+    let mut change_of_type = column.change_of_type(&state);
+    while BEYOND * change_of_type > column.flow.cut * (1.0 + ROUNDING) {
+        column.flow.cut = BEYOND * change_of_type;
+        state = column.iterate(state, pace, &mut history, &mut stop)?;
+        change_of_type = column.change_of_type(&state);
+    }
+    Ok(Solved { column, state, exact: None, history, change_of_type })
+}
+
+impl Column {
+    /// The same column with the exact yield.
+    #[must_use]
+    pub fn exact_yield(&self) -> Self {
+        Self { flow: Flow { lambda: 0.0, ..self.flow }, ..self.clone() }
+    }
+
+    /// Solid volume under the interface down to which the coefficient of the highest derivative, `P_p + phi dtau_f/dr` at a
+    /// given total stress, is negative; 0 where it is positive everywhere.
+    #[must_use]
+    pub fn change_of_type(&self, state: &State) -> f64 {
+        let negative = |c: &usize| {
+            let cell = super::bed::local_cell(&self.flow, &self.mesh, state, *c);
+            let pressure = cell.pressure.value;
+            let slope = cell.tau_f.slope[2] - pressure * cell.tau_f.slope[3];
+            pressure + cell.phi.value * slope < 0.0
+        };
+        (0..self.mesh.cells()).rev().find(negative).map_or(0.0, |c| state.m * self.mesh.nodes[c + 1])
+    }
+
+    /// Solid volume over the lowest place where the grains carry just mu_s P_p; `None` if they carry more down to the bottom.
+    #[must_use]
+    pub fn yield_volume(&self, state: &State) -> Option<f64> {
+        let mu_s = self.flow.friction.mu_s;
+        let c = (0..self.mesh.cells()).rev().find(|&c| state.r(c) > mu_s)?;
+        if c + 1 == self.mesh.cells() {
+            return None;
+        }
+        let (a, b) = (self.mesh.middles[c], self.mesh.middles[c + 1]);
+        let share = (state.r(c) - mu_s) / (state.r(c) - state.r(c + 1));
+        Some(state.m * (a + share * (b - a)))
+    }
+
+    /// The solution that conserves the grains, from the one at the level of the bed at rest: the level in the flow rises in
+    /// small steps until the grains are all there.
+    fn rise(&mut self, start: State, history: &mut Vec<f64>) -> Result<State, Stalled> {
+        let wanted = self.setting;
+        let step = STEP * (wanted.height - wanted.level);
+        self.setting.reading = BedReading::Final;
+        let mut state = self.newton(start, history)?;
+        let found = loop {
+            let missing = wanted.closing_residual(&self.flow, &self.meshes, &self.mesh, &state)[2];
+            if missing >= 0.0 {
+                break Ok(state);
+            }
+            self.setting.level += step;
+            let at_rest = state.r(self.mesh.cells() - 1) < self.flow.friction.mu_s;
+            state = match self.newton(state, history) {
+                Ok(next) if at_rest && self.setting.level < wanted.height => next,
+                _ => {
+                    let residual = history.last().copied().unwrap_or(f64::INFINITY);
+                    break Err(Stalled { residual, iterations: history.len(), level: Some(self.setting.level) });
+                }
+            };
+        };
+        self.setting = wanted;
+        self.newton(found?, history)
+    }
+
+    /// From the exact yield to the regularisation `lambda`: at once, or by smaller ones.
+    fn creep(&mut self, exact: State, lambda: f64, history: &mut Vec<f64>) -> Result<State, Stalled> {
+        self.flow.lambda = lambda;
+        if lambda == 0.0 {
+            return Ok(exact);
+        }
+        let largest = (0..self.mesh.cells()).map(|c| exact.w(c)).fold(0.0, f64::max);
+        let mut start = exact;
+        for c in 0..self.mesh.cells() {
+            let w = &mut start.x[STRIDE * c + 1];
+            *w = w.max(SEEPAGE * largest);
+        }
+        let direct = self.newton(start.clone(), history);
+        if direct.is_ok() {
+            return direct;
+        }
+        self.flow.lambda = LOWEST;
+        while self.flow.lambda < lambda {
+            start = self.newton(start, history)?;
+            self.flow.lambda *= LADDER;
+        }
+        self.flow.lambda = lambda;
+        self.newton(start, history)
+    }
+}

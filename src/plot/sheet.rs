@@ -1,0 +1,132 @@
+//! Figures that only a sheet flow has: who carries the stress and where the grains go, within the sheet, and which time rules
+//! the rearrangement of the grains.
+
+use super::profile::sentence;
+use super::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
+use crate::result::quantity::{self, Quantity};
+use crate::result::{Profile, Summary};
+
+/// The figures of a sheet flow; none for other flows.
+pub(super) fn sheet_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
+    let result = |quantity: &Quantity| summary.results.get(quantity.name);
+    let (Some(thickness), Some(bottom), Some(shields)) =
+        (result(&quantity::SHEET_THICKNESS), result(&quantity::YIELD_LEVEL), result(&quantity::SHIELDS))
+    else {
+        return Vec::new();
+    };
+    let scene = Scene { profile, z: profile.axis(), bottom, thickness };
+    // The stress of the interface, where the grains carry none.
+    let interface = scene.z.iter().position(|&z| z >= bottom + thickness);
+    let tau_b = interface.and_then(|row| scene.total(row + 1)).filter(|tau| *tau > 0.0);
+    let mut figures = Vec::new();
+    if let Some(tau_b) = tau_b {
+        figures.push(scene.repartition(&summary.case, tau_b));
+    }
+    figures.extend(scene.regimes(&summary.case, shields));
+    figures
+}
+
+struct Scene<'a> {
+    profile: &'a Profile,
+    z: Vec<f64>,
+    bottom: f64,
+    thickness: f64,
+}
+
+impl Scene<'_> {
+    fn at(&self, quantity: &Quantity, row: usize) -> Option<f64> {
+        self.profile.get(quantity)?.get(row).copied().flatten()
+    }
+
+    fn fluid(&self, row: usize) -> Option<f64> {
+        Some(self.at(&quantity::TAU_VISCOUS, row)? + self.at(&quantity::TAU_REYNOLDS, row)?)
+    }
+
+    fn total(&self, row: usize) -> Option<f64> {
+        Some(self.fluid(row)? + self.at(&quantity::TAU_PARTICLE, row).unwrap_or(0.0))
+    }
+
+    /// A curve over the height in the sheet.
+    fn curve(&self, name: &str, (colour, dash): (usize, Dash), value: impl Fn(usize) -> Option<f64>) -> Curve {
+        let point = |row: usize| {
+            let y = (self.z[row] - self.bottom) / self.thickness;
+            let x = value(row).filter(|_| (-0.05..=1.5).contains(&y))?;
+            Some((x, y))
+        };
+        let points = (0..self.z.len()).map(point).filter(Option::is_some).collect();
+        Curve { name: name.into(), points, colour, line: Some(dash), marker: None }
+    }
+
+    /// Stresses over that of the interface, solid fraction, flux and its integral over their largest values.
+    fn repartition(&self, case: &str, tau_b: f64) -> Figure {
+        let share = |quantity: &'static Quantity| {
+            let largest = self.profile.range(quantity).map_or(1.0, |(_, high)| high.max(f64::MIN_POSITIVE));
+            move |row: usize| Some(self.at(quantity, row)? / largest)
+        };
+        let over = |value: Option<f64>| value.map(|tau| tau / tau_b);
+        let bed = |row: usize| self.z[row] < self.bottom + self.thickness;
+        let stresses = vec![
+            self.curve("mixture", (0, Dash::Dotted), |row| over(self.total(row))),
+            self.curve("grains", (2, Dash::Dashed), |row| over(self.at(&quantity::TAU_PARTICLE, row))),
+            self.curve("fluid", (1, Dash::Solid), |row| over(self.fluid(row))),
+            self.curve("viscous", (3, Dash::DashDotted), |row| {
+                over(self.at(&quantity::TAU_VISCOUS, row).filter(|_| bed(row)))
+            }),
+        ];
+        let grains = vec![
+            self.curve("flux", (2, Dash::Dashed), share(&quantity::FLUX)),
+            self.curve("cumulative", (0, Dash::Solid), share(&quantity::CUMULATIVE_FLUX)),
+        ];
+        let fraction = vec![self.curve("", (1, Dash::Solid), |row| self.at(&quantity::PHI, row))];
+        let panels = vec![
+            Panel { x: Axis::linear("stress τ/τ_b", ""), curves: stresses },
+            Panel { x: Axis::linear("solid fraction φ", ""), curves: fraction },
+            Panel { x: Axis::linear("flux over its maximum", ""), curves: grains },
+        ];
+        Figure {
+            stem: "sheet".into(),
+            caption: format!("{case}: {} over the height in the sheet.", sentence(&panels)),
+            y: Axis::linear("(z - h_c)/δₛ", ""),
+            panels,
+            levels: vec![Level { y: 1.0, label: "bed level".into() }],
+            tint_below: Some(1.0),
+        }
+    }
+
+    /// The plane of the rearrangement times: free fall at St > 1 and r > 1, viscous at St < 1 and r > St, turbulent at r < 1
+    /// and St > r.
+    fn regimes(&self, case: &str, shields: f64) -> Option<Figure> {
+        let moving = |row: &usize| self.z[*row] > self.bottom;
+        let pair = |row: usize| Some((self.at(&quantity::RATIO_R, row)?, self.at(&quantity::STOKES, row)?));
+        let points: Vec<_> = (0..self.z.len()).filter(moving).filter_map(pair).map(Some).collect();
+        let (low, high) = (0.1, points.iter().flatten().fold(100.0_f64, |m, p| m.max(p.1)));
+        let line = |points: Vec<(f64, f64)>| Curve {
+            name: String::new(),
+            points: points.into_iter().map(Some).collect(),
+            colour: 0,
+            line: Some(Dash::Dashed),
+            marker: None,
+        };
+        let cells = Curve { name: "cells".into(), points, colour: 2, line: None, marker: Some(Marker::Circle) };
+        if cells.points.is_empty() {
+            return None;
+        }
+        let borders = [
+            line(vec![(1.0, 1.0), (10.0, 1.0)]),
+            line(vec![(1.0, 1.0), (1.0, high)]),
+            line(vec![(low, low), (1.0, 1.0)]),
+        ];
+        Some(Figure {
+            stem: "regimes".into(),
+            caption: format!(
+                "{case}: rearrangement of the moving grains at a Shields number of {}, free fall at the upper right, \
+                 turbulent at the upper left, viscous below.",
+                crate::units::significant(shields, 3)
+            ),
+            y: Axis::log("St", ""),
+            panels: vec![Panel { x: Axis::log("r", ""), curves: borders.into_iter().chain([cells]).collect() }],
+            levels: Vec::new(),
+            tint_below: None,
+        })
+    }
+}
