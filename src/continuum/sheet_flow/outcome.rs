@@ -65,6 +65,11 @@ fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled)
     if let Some(level) = stalled.level {
         return SolveError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d };
     }
+    // The stress of the interface alone needs this much weight of grains to be held.
+    let grains = flow.dilatancy.phi_max * setting.level;
+    if let Some(tau_b) = setting.tau_b.filter(|tau_b| *tau_b >= flow.friction.mu_s * grains) {
+        return SolveError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
+    }
     // Grains at rest in a deep bed carry the slope of the whole mixture, at most mu_s P_p.
     let sine = setting.sine.or_else(|| {
         let free = setting.lid == Lid::FreeSurface;
