@@ -6,7 +6,7 @@ use crate::closures::drag::{carman_kozeny, dallavalle};
 use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::{laminar, sheet_flow};
-use crate::discrete::{bed as grain_bed, impact};
+use crate::discrete::{bed as grain_bed, impact, trials};
 use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
 
@@ -29,6 +29,7 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::SheetFlow(flow) => sheet_flow::run(flow, problem.cells, watch),
         Model::Grains(bed) => grain_bed::run(bed, watch),
         Model::Impact(one) => impact::run(one, watch),
+        Model::Trial(trial) => trials::run(trial, watch),
     };
     outcome?.trusted(LARGEST_IMBALANCE)
 }
@@ -46,6 +47,7 @@ pub fn equations(problem: &Problem) -> String {
         Model::SheetFlow(flow) => sheet_flow::equations(flow),
         Model::Grains(bed) => grain_bed::equations(bed),
         Model::Impact(one) => impact::equations(one),
+        Model::Trial(trial) => trials::equations(trial),
     }
 }
 
@@ -61,7 +63,7 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
-        Model::Grains(_) | Model::Impact(_) => vec![&linear_spring::INFO],
+        Model::Grains(_) | Model::Impact(_) | Model::Trial(_) => vec![&linear_spring::INFO],
         Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
         Model::SheetFlow(flow) => vec![
             &friction::mu_i::INFO,

@@ -13,6 +13,7 @@ pub mod body;
 pub mod cells;
 pub mod checkpoint;
 pub mod contacts;
+pub mod deposit;
 pub mod domain;
 pub mod engine;
 pub mod error;
@@ -30,6 +31,7 @@ pub mod picture;
 pub mod readings;
 pub mod stability;
 pub mod tile;
+pub mod trials;
 pub mod walls;
 
 pub use domain::{Domain, Wall};

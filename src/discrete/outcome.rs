@@ -196,11 +196,19 @@ pub fn outcome(
     }
     let kinetic = engine.grains().kinetic_energy();
     let (defect, scale) = (engine.ledger().defect(kinetic), engine.ledger().scale(kinetic));
-    let balances = vec![Balance {
-        name: "energy".into(),
-        relative: if scale > 0.0 { defect / scale } else { 0.0 },
-        how: "kinetic energy against the work of contacts and gravity, relative to the largest of them".into(),
-    }];
+    let balances = vec![
+        Balance {
+            name: "energy".into(),
+            relative: if scale > 0.0 { defect / scale } else { 0.0 },
+            how: "kinetic energy against the work of contacts and gravity, relative to the largest of them".into(),
+        },
+        Balance {
+            name: "momentum".into(),
+            relative: engine.ledger().momentum_defect(engine.grains().momentum()),
+            how: "momentum of the grains against the impulses of gravity, bottom and walls, relative to the largest of them"
+                .into(),
+        },
+    ];
     Ok(Outcome { results, balances, validity, profile, series, ..nothing(status) })
 }
 

@@ -7,7 +7,7 @@ mod sheet;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
-pub use grains::{GrainBed, Impact};
+pub use grains::{GrainBed, Impact, Trial};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
 
@@ -50,6 +50,8 @@ pub enum Model {
     Grains(GrainBed),
     /// the impact of one sphere
     Impact(Impact),
+    /// a few grains, held against what is known exactly
+    Trial(Trial),
 }
 
 /// Faults found while comparing values with each other, by path.
@@ -105,6 +107,7 @@ impl Problem {
                 (bed.map(Model::Grains), bed.map_or(0, |bed| bed.mobile))
             }
             Scene::Impact(scene) => (Some(Model::Impact(grains::impact(scene))), 1),
+            Scene::Trial(scene) => (Some(Model::Trial(grains::trial(scene))), 1),
         };
         let mut faults: Vec<(String, Fault)> =
             faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();

@@ -79,7 +79,8 @@ impl Focus {
             | Model::BagnoldFilm(_)
             | Model::LogLaw(_)
             | Model::Grains(_)
-            | Model::Impact(_) => None,
+            | Model::Impact(_)
+            | Model::Trial(_) => None,
         }
     }
 
