@@ -19,6 +19,7 @@ pub mod engine;
 pub mod error;
 pub mod forces;
 pub mod grains;
+pub mod guards;
 pub mod impact;
 pub mod integrate;
 pub mod lanes;

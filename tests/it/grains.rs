@@ -26,7 +26,7 @@ const CASE: &[&str] = &[
     "--set",
     "flow.slope=0.45",
     "--set",
-    "discrete.duration=0.8 s",
+    "discrete.duration=0.5 s",
     "--set",
     "discrete.frames=4",
     "--quiet",
@@ -85,7 +85,7 @@ fn same(found: &BTreeMap<PathBuf, String>, expected: &BTreeMap<PathBuf, String>)
 fn checkpoints_seldom_often_or_never_and_threads_change_no_bit() {
     let scratch = Scratch::new();
     let (whole, _) = undisturbed(&scratch);
-    for (every, threads) in [("0.01", "1"), ("0.07", "2"), ("1", "1"), ("7", "3")] {
+    for (every, threads) in [("0.01", "1"), ("0.05", "2")] {
         let out = format!("out-{every}");
         scratch.bedload(case(&["--out", &out, "--checkpoint", every, "--threads", threads])).exits(0);
         let mut found = said(&scratch, &out);

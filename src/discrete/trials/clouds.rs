@@ -1,6 +1,6 @@
 //! Grains of several sizes that fly about and collide: what is conserved, and what is accounted for.
 
-use super::Findings;
+use super::{Findings, accounted};
 use crate::discrete::body::Nothing;
 use crate::discrete::impact::law;
 use crate::discrete::{Domain, Engine, Grain, LinearSpring, Point, Settings, Wall};
@@ -61,7 +61,7 @@ pub fn cluster(trial: &Trial) -> Result<Findings, SolveError> {
     let settings = Settings::new(step(trial, &law), [0.0; 3], trial.d);
     let side = 8.3 * trial.d;
     let grains = cloud(200, side, 0.3, &of, trial.velocity);
-    let (mut linear, mut angular) = (0.0_f64, 0.0_f64);
+    let (mut linear, mut angular, mut energy) = (0.0_f64, 0.0_f64, 0.0_f64);
     for periodic in [false, true] {
         let period = periodic.then_some(side);
         let domain = Domain { periods: [period, period], walls: Vec::new() };
@@ -71,6 +71,7 @@ pub fn cluster(trial: &Trial) -> Result<Findings, SolveError> {
         for _ in 0..2000 {
             engine.step(&Nothing)?;
         }
+        energy = energy.max(accounted(&engine));
         let (p, l, _) = momenta(&engine);
         for k in 0..3 {
             linear = linear.max((p[k] - p0[k]).abs() / scale[0]);
@@ -79,7 +80,7 @@ pub fn cluster(trial: &Trial) -> Result<Findings, SolveError> {
             }
         }
     }
-    Ok(vec![(&q::MOMENTUM_ERROR, linear), (&q::ANGULAR_MOMENTUM_ERROR, angular)])
+    Ok(vec![(&q::MOMENTUM_ERROR, linear), (&q::ANGULAR_MOMENTUM_ERROR, angular), (&q::LEDGER_ERROR, energy)])
 }
 
 /// The account of energies of eight grains that bounce and collide on a tilted plane, after `steps` steps.
@@ -97,9 +98,8 @@ pub fn ledger(trial: &Trial, steps: usize) -> Result<Findings, SolveError> {
     for _ in 0..steps {
         engine.step(&Nothing)?;
     }
-    let kinetic = engine.grains().kinetic_energy();
     Ok(vec![
-        (&q::LEDGER_ERROR, (engine.ledger().defect(kinetic) / engine.ledger().scale(kinetic)).abs()),
+        (&q::LEDGER_ERROR, accounted(&engine)),
         (&q::MOMENTUM_ERROR, engine.ledger().momentum_defect(engine.grains().momentum())),
     ])
 }

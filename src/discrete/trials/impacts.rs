@@ -1,6 +1,6 @@
 //! Impacts by the hundred: restitution, duration, gross slip, energy.
 
-use super::Findings;
+use super::{Findings, accounted};
 use crate::case::grain_tables::Target;
 use crate::closures::contact::Tension;
 use crate::discrete::body::Nothing;
@@ -37,13 +37,14 @@ fn head(trial: &Trial, e_n: f64, tension: Tension, target: Target) -> Impact {
 /// # Errors
 /// If the grains cannot go on.
 pub fn head_on(trial: &Trial) -> Result<Findings, SolveError> {
-    let (mut worst, mut latest) = (0.0_f64, 0.0_f64);
+    let (mut worst, mut latest, mut energy) = (0.0_f64, 0.0_f64, 0.0_f64);
     for tension in [Tension::Cut, Tension::Kept] {
         for target in [Target::Wall, Target::Fixed, Target::Mobile] {
             for tenth in 1..=10 {
                 let e_n = f64::from(tenth) / 10.0;
                 let found = follow(&head(trial, e_n, tension, target))?;
                 worst = worst.max((found.restitution - e_n).abs());
+                energy = energy.max(found.ledger.abs());
                 latest = latest.max((found.duration / found.expected_duration - 1.0).abs());
             }
         }
@@ -75,6 +76,7 @@ pub fn head_on(trial: &Trial) -> Result<Findings, SolveError> {
         (&q::RESTITUTION_ORDER, order),
         (&q::RESTITUTION_BIAS, sum / f64::from(MANY)),
         (&q::RESTITUTION_SPREAD, spread),
+        (&q::LEDGER_ERROR, energy),
     ])
 }
 
@@ -96,12 +98,13 @@ pub fn at_angle(trial: &Trial, e_n: f64, mu: f64, degrees: f64, steps: f64) -> R
 /// If the grains cannot go on.
 pub fn oblique(trial: &Trial) -> Result<Findings, SolveError> {
     let (e_n, mu) = (trial.contact.e_n, trial.contact.mu);
-    let (mut slip, mut spin, mut angles) = (0.0_f64, 0.0_f64, 0.0);
+    let (mut slip, mut spin, mut angles, mut energy) = (0.0_f64, 0.0_f64, 0.0, 0.0_f64);
     for degrees in 1..=89 {
         let degrees = f64::from(degrees);
         let found = at_angle(trial, e_n, mu, degrees, trial.steps_per_contact)?;
         let Some(expected) = found.gross_slip else { continue };
         let change = mu * (1.0 + e_n) * trial.velocity * degrees.to_radians().cos();
+        energy = energy.max(found.ledger.abs());
         slip = slip.max((found.tangential - expected).abs() / change);
         spin = spin.max((found.spin / (2.5 * change / (0.5 * trial.d)) - 1.0).abs());
         angles += 1.0;
@@ -119,6 +122,7 @@ pub fn oblique(trial: &Trial) -> Result<Findings, SolveError> {
         (&q::GROSS_SLIP_ANGLES, angles),
         (&q::SPIN_WORST, spin),
         (&q::ENERGY_GAINED_WORST, gained),
+        (&q::LEDGER_ERROR, energy),
     ])
 }
 
@@ -134,7 +138,8 @@ pub fn springs(trial: &Trial) -> Result<Findings, SolveError> {
     let still = Grain::at_rest([0.0; 3], r, trial.rho_p);
     let mass = still.mass();
     let lasts = std::f64::consts::PI / (2.0 * contact.k_n / mass).sqrt();
-    let defect = |dt: f64| -> Result<f64, SolveError> {
+    let mut energy = 0.0_f64;
+    let mut defect = |dt: f64| -> Result<f64, SolveError> {
         let gap = 1e-3 * trial.velocity * dt;
         let comes = Grain { velocity: [-trial.velocity, 0.0, 0.0], position: [2.0 * r + gap, 0.0, 0.0], ..still };
         let settings = Settings::new(dt, [0.0; 3], trial.d);
@@ -150,13 +155,19 @@ pub fn springs(trial: &Trial) -> Result<Findings, SolveError> {
             worst = worst.max((0.5 * (before + after) + spring - initial).abs() / initial);
             before = after;
         }
+        energy = energy.max(accounted(&engine));
         Ok(worst)
     };
     // How far into a step the touch falls differs: the worst of steps that are close.
-    let worst = |dt: f64| {
+    let mut worst = |dt: f64| {
         (0..10).try_fold(0.0_f64, |worst, i| Ok::<_, SolveError>(worst.max(defect(dt * (1.0 - 0.03 * f64::from(i)))?)))
     };
     let step = SAFETY * stability::of_pair(&law, 0.5 * mass);
     let (coarse, fine) = (worst(step)?, worst(0.1 * step)?);
-    Ok(vec![(&q::SPRING_DEFECT, coarse), (&q::SPRING_DEFECT_FINE, fine), (&q::SPRING_ORDER, (coarse / fine).log10())])
+    Ok(vec![
+        (&q::SPRING_DEFECT, coarse),
+        (&q::SPRING_DEFECT_FINE, fine),
+        (&q::SPRING_ORDER, (coarse / fine).log10()),
+        (&q::LEDGER_ERROR, energy),
+    ])
 }

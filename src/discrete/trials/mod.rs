@@ -5,9 +5,10 @@ pub mod impacts;
 pub mod motion;
 
 use super::impact::contact_equations;
+use super::{Engine, LinearSpring};
 use crate::case::grain_tables::Trial as Which;
 use crate::problem::Trial;
-use crate::result::{Failure, Outcome, Quantity, Results, SolveError, Status, Watch};
+use crate::result::{Balance, Failure, Outcome, Quantity, Results, SolveError, Status, Watch, quantity as q};
 use crate::units::significant;
 
 /// What a trial found.
@@ -19,10 +20,15 @@ pub type Findings = Vec<(&'static Quantity, f64)>;
 /// [`Failure`] if the grains cannot go on.
 pub fn run(trial: &Trial, _: &mut dyn Watch) -> Result<Outcome, Failure> {
     let mut results = Results::default();
+    let mut balances = Vec::new();
     for (quantity, value) in findings(trial)? {
         results.set(quantity, value);
+        if *quantity == q::LEDGER_ERROR {
+            let how = "kinetic energy against all work, relative to the largest of them; the worst of all runs".into();
+            balances.push(Balance { name: "energy".into(), relative: value, how });
+        }
     }
-    Ok(Outcome { results, ..super::outcome::nothing(Status::Done) })
+    Ok(Outcome { results, balances, ..super::outcome::nothing(Status::Done) })
 }
 
 fn findings(trial: &Trial) -> Result<Findings, SolveError> {
@@ -36,6 +42,13 @@ fn findings(trial: &Trial) -> Result<Findings, SolveError> {
         Which::Ledger => clouds::ledger(trial, 1_000_000),
         Which::Springs => impacts::springs(trial),
     }
+}
+
+/// Defect of the account of energies of `engine`, relative to the largest of them.
+fn accounted(engine: &Engine<LinearSpring>) -> f64 {
+    let kinetic = engine.grains().kinetic_energy();
+    let scale = engine.ledger().scale(kinetic);
+    if scale > 0.0 { engine.ledger().defect(kinetic).abs() / scale } else { 0.0 }
 }
 
 /// The equations that are solved, with their numbers.

@@ -1,6 +1,6 @@
 //! Grains on a plane: sliding, bouncing, stacked.
 
-use super::Findings;
+use super::{Findings, accounted};
 use crate::closures::contact::restitution;
 use crate::discrete::body::Nothing;
 use crate::discrete::impact::law;
@@ -54,7 +54,11 @@ pub fn rolling(trial: &Trial) -> Result<Findings, SolveError> {
         sums[1] += engine.grains().spin(0)[1] * r;
     }
     let off = sums.map(|sum| (sum / count.floor() / (5.0 / 7.0 * v0) - 1.0).abs());
-    Ok(vec![(&q::ROLLING_TIME_ERROR, rolling / expected - 1.0), (&q::ROLLING_VELOCITY_ERROR, off[0].max(off[1]))])
+    Ok(vec![
+        (&q::ROLLING_TIME_ERROR, rolling / expected - 1.0),
+        (&q::ROLLING_VELOCITY_ERROR, off[0].max(off[1])),
+        (&q::LEDGER_ERROR, accounted(&engine)),
+    ])
 }
 
 /// Three heights after as many impacts, each e² times the one before; dropped with the energy of the velocity.
@@ -78,7 +82,7 @@ pub fn bouncing(trial: &Trial) -> Result<Findings, SolveError> {
         }
         worst = worst.max(((engine.grains().position(0)[2] - r) / expected - 1.0).abs());
     }
-    Ok(vec![(&q::BOUNCE_ERROR, worst)])
+    Ok(vec![(&q::BOUNCE_ERROR, worst), (&q::LEDGER_ERROR, accounted(&engine))])
 }
 
 /// Three grains at rest: each contact is pressed together by what stands on it.
@@ -101,5 +105,5 @@ pub fn stack(trial: &Trial) -> Result<Findings, SolveError> {
     let z: Vec<f64> = engine.grains().listed().iter().map(|grain| grain.position[2]).collect();
     let overlaps = [r - z[0], 2.0 * r - (z[1] - z[0]), 2.0 * r - (z[2] - z[1])];
     let off = overlaps.into_iter().zip([3.0, 2.0, 1.0]).map(|(overlap, load)| (overlap / (load * sunk) - 1.0).abs());
-    Ok(vec![(&q::STACK_ERROR, off.fold(0.0, f64::max))])
+    Ok(vec![(&q::STACK_ERROR, off.fold(0.0, f64::max)), (&q::LEDGER_ERROR, accounted(&engine))])
 }
