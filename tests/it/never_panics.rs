@@ -67,9 +67,9 @@ fn numbers_are_sound(problem: &Problem, outcome: &Outcome) -> Result<(), TestCas
     for validity in &outcome.validity {
         require!(validity.value.is_finite() && validity.z_m.is_none_or(f64::is_finite), "{validity:?}");
     }
-    // An impact happens at one place: it has numbers and no levels.
+    // An impact or a trial happens at one place: it has numbers and no levels.
     let Some(profile) = &outcome.profile else {
-        require!(matches!(problem.model, Model::Impact(_)), "no profile");
+        require!(matches!(problem.model, Model::Impact(_) | Model::Trial(_)), "no profile");
         return Ok(());
     };
     let z = profile.axis();
