@@ -2,11 +2,11 @@
 
 use crate::closures::contact::linear_spring;
 use crate::closures::dilatancy::{phi_i, phi_iv};
-use crate::closures::drag::{carman_kozeny, dallavalle};
+use crate::closures::drag::{carman_kozeny, dallavalle, dallavalle_grain};
 use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::{laminar, sheet_flow};
-use crate::discrete::{bed as grain_bed, impact, trials};
+use crate::discrete::{bed as grain_bed, couple, impact, trials};
 use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
 
@@ -28,6 +28,7 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
         Model::SheetFlow(flow) => sheet_flow::run(flow, problem.cells, watch),
         Model::Grains(bed) => grain_bed::run(bed, watch),
+        Model::Coupled(flow) => couple::run(flow, watch),
         Model::Impact(one) => impact::run(one, watch),
         Model::Trial(trial) => trials::run(trial, watch),
     };
@@ -46,6 +47,7 @@ pub fn equations(problem: &Problem) -> String {
         Model::Bingham(plane) => laminar::bingham_equations(plane),
         Model::SheetFlow(flow) => sheet_flow::equations(flow),
         Model::Grains(bed) => grain_bed::equations(bed),
+        Model::Coupled(flow) => couple::equations(flow),
         Model::Impact(one) => impact::equations(one),
         Model::Trial(trial) => trials::equations(trial),
     }
@@ -64,6 +66,14 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
         Model::Grains(_) | Model::Impact(_) | Model::Trial(_) => vec![&linear_spring::INFO],
+        Model::Coupled(flow) => vec![
+            &linear_spring::INFO,
+            &dallavalle_grain::INFO,
+            flow.mixing_length.info(),
+            flow.viscosity.info(),
+            flow.side_wall.info(),
+            flow.fluctuation.info(),
+        ],
         Model::BagnoldFilm(_) => vec![&friction::mu_i::INFO],
         Model::SheetFlow(flow) => vec![
             &friction::mu_i::INFO,

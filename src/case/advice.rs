@@ -22,6 +22,7 @@ impl Fault {
             Self::WrongType { expected, .. } => Some(expected.clone()),
             Self::Unit { unit, .. } if unit == "1" => Some("a pure number".into()),
             Self::Unit { unit, .. } => Some(format!("a number in {unit}, or a text such as \"1 {unit}\"")),
+            Self::Surfaces { .. } => Some("one of height, depth".into()),
             Self::NoRoomForFlow { height, .. } => Some(format!("more than 0 and less than {height} m")),
             Self::Floating { fluid, .. } => Some(format!("more than {fluid} kg/m3")),
             Self::Jammed { phi_max, .. } => Some(format!("less than {phi_max}")),

@@ -157,6 +157,12 @@ pub enum Fault {
         /// drives to choose from
         allowed: Vec<String>,
     },
+    /// Not exactly one free surface.
+    #[error("the flow has {} free surfaces: give height or depth", given.len())]
+    Surfaces {
+        /// keys that were given
+        given: Vec<String>,
+    },
     /// A bed that fills the flow.
     #[error("the bed level {level} m is not below the flow height {height} m")]
     NoRoomForFlow {
@@ -302,6 +308,7 @@ impl Fault {
             Self::OutOfRange { .. } => "out-of-range",
             Self::UnknownWord { .. } => "unknown-word",
             Self::Drives { .. } => "drives",
+            Self::Surfaces { .. } => "surfaces",
             Self::NoRoomForFlow { .. } => "no-room-for-flow",
             Self::Floating { .. } => "floating-grains",
             Self::Jammed { .. } => "jammed",

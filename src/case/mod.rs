@@ -8,6 +8,7 @@
 
 mod advice;
 pub mod checks;
+pub mod coupled;
 mod diagnose;
 mod document;
 mod fault;

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::checks::Check;
+use super::coupled::{CoupledBed, CoupledClosures, CoupledDiscrete, CoupledFlow, CoupledModel};
 use super::grain_tables::{
     Discrete, GrainBed, GrainClosures, GrainFlow, GrainsModel, ImpactFlow, ImpactModel, ImpactSteps, TrialFlow,
     TrialModel,
@@ -209,6 +210,23 @@ scenes! {
         closures: GrainClosures,
         /// How grains are moved and averaged.
         discrete: Discrete,
+    }
+    /// Grains with friction, grain by grain, in a turbulent fluid of one dimension that drives them.
+    Coupled ("coupled") {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: CoupledBed,
+        /// The channel, its tilt and the free surface.
+        flow: CoupledFlow,
+        /// The model.
+        model: CoupledModel,
+        /// Laws.
+        closures: CoupledClosures,
+        /// How grains are moved, how often the fluid is solved, and what is averaged.
+        discrete: CoupledDiscrete,
     }
     /// The impact of one sphere on a wall or another sphere, next to its closed form.
     Impact ("impact") {

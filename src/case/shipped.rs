@@ -9,6 +9,16 @@ macro_rules! shipped {
 /// Name and content of each shipped case; a test holds the list against the folder `cases/`.
 pub static CASES: &[(&str, &str)] = shipped![
     "bingham_1d_plane",
+    "coupled_2d_exp14",
+    "coupled_2d_exp14_quick",
+    "coupled_2d_exp20",
+    "coupled_2d_exp20_quick",
+    "coupled_2d_exp6",
+    "coupled_2d_exp6_quick",
+    "coupled_3d_chassagne",
+    "coupled_3d_chassagne_quick",
+    "coupled_3d_shields",
+    "coupled_3d_shields_quick",
     "exact_1d_aussillous",
     "exact_1d_bagnold",
     "exact_1d_bingham",
@@ -50,7 +60,7 @@ pub fn find(name: &str) -> Option<&'static str> {
 
 /// Names of the shipped cases that take less than a second or so: the others follow many grains for long.
 pub fn quick() -> impl Iterator<Item = &'static str> {
-    names().filter(|name| !name.starts_with("grains_"))
+    names().filter(|name| !["grains_", "coupled_"].iter().any(|long| name.starts_with(long)))
 }
 
 /// Names of the shipped cases.

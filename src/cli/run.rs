@@ -12,6 +12,7 @@ use serde_json::Value;
 use super::progress::Progress;
 use super::{CaseArgs, CliError, answer, say};
 use crate::discrete::bed::accepts;
+use crate::discrete::couple;
 use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
 use crate::problem::{Model, Problem};
 use crate::result::{Cost, Snapshot, Status, Summary, Watch, quantity};
@@ -98,9 +99,13 @@ impl Run {
 impl Run {
     /// The checkpoint of the unfinished run in `out`, if there is one; one that cannot be used is refused.
     fn checkpoint(out: &Path, problem: &Problem) -> Result<Option<Vec<u8>>, CliError> {
-        let Model::Grains(bed) = &problem.model else { return Ok(None) };
         let Ok(bytes) = fs::read(out.join(CHECKPOINT)) else { return Ok(None) };
-        accepts(bed, &bytes).map(|()| Some(bytes)).map_err(|error| CliError::Usage {
+        let accepted = match &problem.model {
+            Model::Grains(bed) => accepts(bed, &bytes),
+            Model::Coupled(flow) => couple::accepts(flow, &bytes),
+            _ => return Ok(None),
+        };
+        accepted.map(|()| Some(bytes)).map_err(|error| CliError::Usage {
             message: format!("{}: {error}", out.join(CHECKPOINT).display()),
             hint: "--force starts again".into(),
         })

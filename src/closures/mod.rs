@@ -7,6 +7,7 @@
 pub mod contact;
 pub mod dilatancy;
 pub mod drag;
+pub mod fluctuation;
 pub mod friction;
 pub mod lid;
 pub mod mixing_length;
@@ -15,6 +16,7 @@ pub mod rearrangement;
 pub mod regularisation;
 pub mod side_wall;
 pub mod suspension;
+pub mod transport;
 pub mod wall;
 
 /// How far a closure has been tested here.
@@ -90,6 +92,9 @@ pub static CATALOGUE: &[&Info] = &[
     &drag::none::INFO,
     &drag::carman_kozeny::INFO,
     &drag::dallavalle::INFO,
+    &drag::dallavalle_grain::INFO,
+    &fluctuation::none::INFO,
+    &fluctuation::random_walk::INFO,
     &mixing_length::none::INFO,
     &mixing_length::prandtl::INFO,
     &mixing_length::li_sawamoto::INFO,

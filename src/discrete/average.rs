@@ -85,6 +85,12 @@ impl Averages {
         Self { bottom, thickness, slice_volume, density, blocks }
     }
 
+    /// The same without the blocks before `first`.
+    #[must_use]
+    pub fn after(&self, first: usize) -> Self {
+        Self { blocks: self.blocks.iter().skip(first).cloned().collect(), ..self.clone() }
+    }
+
     /// Adds the present state to block `block`.
     pub fn sample<C: ContactLaw>(&mut self, engine: &Engine<C>, block: usize) {
         let (bottom, thickness) = (self.bottom, self.thickness);

@@ -6,7 +6,7 @@ use std::time::Instant;
 use super::average::Averages;
 use super::body::Nothing;
 use super::checkpoint::{CheckpointError, Reader, Saved, Writer};
-use super::deposit::{BETWEEN, CHECKPOINT, Stage, deposit, pace};
+use super::deposit::{BETWEEN, CHECKPOINT, Deposit, Stage, deposit, pace};
 use super::engine::Engine;
 use super::grains::{Grain, Point};
 use super::impact::{contact_equations, law};
@@ -78,7 +78,7 @@ pub fn run(bed: &GrainBed, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
         Some(HalfWay::Falling(stage, engine)) => Some((stage, *engine)),
         None => None,
     };
-    match deposit(bed, falling, watch)? {
+    match deposit(Deposit { bed, fixed: None, name: &name(bed) }, falling, watch)? {
         ControlFlow::Continue(engine) => go_on(Run::begin(bed, engine)?, watch),
         ControlFlow::Break(()) => Ok(outcome::nothing(Status::Stopped)),
     }
@@ -117,7 +117,7 @@ fn resume<'a>(bed: &'a GrainBed, bytes: &[u8]) -> Result<HalfWay<'a>, Checkpoint
     Ok(half_way)
 }
 
-fn refused(error: CheckpointError) -> SolveError {
+pub(super) fn refused(error: CheckpointError) -> SolveError {
     SolveError::Grains {
         code: "checkpoint",
         message: format!("{CHECKPOINT} cannot be used: {error}"),

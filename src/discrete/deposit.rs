@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use super::bed::{name, threads, unwritable};
+use super::bed::{threads, unwritable};
 use super::body::Pushed;
 use super::checkpoint::{CheckpointError, Reader, Writer};
 use super::domain::Domain;
@@ -66,21 +66,33 @@ impl Stage {
     }
 }
 
+/// What is deposited.
+#[derive(Clone, Copy, Debug)]
+pub struct Deposit<'a> {
+    /// the bed
+    pub bed: &'a GrainBed,
+    /// fixed grains of a rough bottom, in place of those that the bed itself would have
+    pub fixed: Option<&'a [Grain]>,
+    /// name of the case for its checkpoints
+    pub name: &'a [u8; 32],
+}
+
 /// Deposits the bed, from the beginning or from where it was; stops where the watch wants it.
 ///
 /// # Errors
 /// The grain that cannot go on, or a checkpoint that cannot be written.
 pub fn deposit(
-    bed: &GrainBed,
+    what: Deposit<'_>,
     mut half_way: Option<(Stage, Engine<LinearSpring>)>,
     watch: &mut dyn Watch,
 ) -> Result<ControlFlow<(), Engine<LinearSpring>>, SolveError> {
+    let Deposit { bed, fixed, .. } = what;
     let mut taken = |wanted: Stage| half_way.take_if(|(stage, _)| *stage == wanted).map(|(_, engine)| engine);
     let above = taken(Stage::Falling);
     let engine = match above {
         Some(engine) => engine,
         None => {
-            let mut grains = pack::bottom(bed);
+            let mut grains = fixed.map_or_else(|| pack::bottom(bed), <[Grain]>::to_vec);
             if bed.bottom == Bottom::Slice {
                 // Six layers deposited on a plane; the slice is taken in their middle.
                 let mobile = (6.0 * bed.size[0] * bed.size[1] / (bed.d * bed.d)).round() as usize;
@@ -89,7 +101,7 @@ pub fn deposit(
                     Some(engine) => engine,
                     None => begin(bed, Stage::Below, &pack::cloud(&few, 0.0))?,
                 };
-                let ControlFlow::Continue(below) = settle(bed, Stage::Below, engine, watch)? else {
+                let ControlFlow::Continue(below) = settle(what, Stage::Below, engine, watch)? else {
                     return Ok(ControlFlow::Break(()));
                 };
                 grains = pack::slice(&below.grains().listed(), 2.5 * bed.d, bed.d);
@@ -104,7 +116,7 @@ pub fn deposit(
             begin(bed, Stage::Falling, &grains)?
         }
     };
-    settle(bed, Stage::Falling, engine, watch)
+    settle(what, Stage::Falling, engine, watch)
 }
 
 /// Grains that are about to fall.
@@ -119,7 +131,7 @@ fn begin(bed: &GrainBed, stage: Stage, grains: &[Grain]) -> Result<Engine<Linear
 
 /// Lets grains fall until they rest.
 fn settle(
-    bed: &GrainBed,
+    Deposit { bed, name, .. }: Deposit<'_>,
     stage: Stage,
     mut engine: Engine<LinearSpring>,
     watch: &mut dyn Watch,
@@ -148,7 +160,7 @@ fn settle(
             let mut to = Writer::default();
             to.whole(stage.number());
             engine.save(&mut to);
-            to.seal(&name(bed))
+            to.seal(name)
         };
         watch.keep(CHECKPOINT, stop, &mut content).map_err(|error| unwritable(&error))?;
         if stop {

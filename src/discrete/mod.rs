@@ -13,6 +13,7 @@ pub mod body;
 pub mod cells;
 pub mod checkpoint;
 pub mod contacts;
+pub mod couple;
 pub mod deposit;
 pub mod domain;
 pub mod engine;

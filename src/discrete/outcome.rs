@@ -216,7 +216,7 @@ pub fn outcome(
 }
 
 /// Where the solid fraction falls below half of that of the bed, from above, and that of the bed.
-fn bed_level(averaged: &Averaged) -> Option<(f64, f64)> {
+pub(super) fn bed_level(averaged: &Averaged) -> Option<(f64, f64)> {
     let phi = |s: usize| averaged.phi[s].map_or(0.0, |(phi, _)| phi);
     let slices = averaged.z.len();
     let bulk_up_to = |top: usize| {
@@ -264,7 +264,7 @@ fn bulk(bed: &GrainBed, averaged: &Averaged, level: f64, results: &mut Results) 
     results.set(&q::INERTIAL_NUMBER_BULK, bed.d * rate * (bed.rho_p / pressure).sqrt());
 }
 
-fn profile(bed: &GrainBed, averaged: &Averaged) -> Result<Option<Profile>, SolveError> {
+pub(super) fn profile(bed: &GrainBed, averaged: &Averaged) -> Result<Option<Profile>, SolveError> {
     if averaged.z.is_empty() {
         return Ok(None);
     }

@@ -105,22 +105,35 @@ impl Banded {
 
     /// Solves in place with the factors of [`Banded::factor`]: `side` becomes the solution.
     pub fn solve(&self, side: &mut [f64]) {
+        let mut sides: Vec<[f64; 1]> = side.iter().map(|x| [*x]).collect();
+        self.solve_several(&mut sides);
+        side.iter_mut().zip(sides).for_each(|(x, [y])| *x = y);
+    }
+
+    /// As [`Banded::solve`], for `K` right-hand sides at once, row by row: the factors are read once.
+    pub fn solve_several<const K: usize>(&self, sides: &mut [[f64; K]]) {
         let (n, lower, width) = (self.n, self.lower, self.width);
         for (k, &p) in self.pivots.iter().enumerate() {
-            side.swap(k, p);
-            let x = side[k];
-            if x != 0.0 {
-                let last = (k + lower).min(n - 1);
-                for (i, value) in side.iter_mut().enumerate().take(last + 1).skip(k + 1) {
-                    *value -= self.entries[i * width + k + lower - i] * x;
+            sides.swap(k, p);
+            let x = sides[k];
+            let last = (k + lower).min(n - 1);
+            for (i, values) in sides.iter_mut().enumerate().take(last + 1).skip(k + 1) {
+                let factor = self.entries[i * width + k + lower - i];
+                for (value, x) in values.iter_mut().zip(&x) {
+                    *value -= factor * x;
                 }
             }
         }
         for i in (0..n).rev() {
             let columns = (lower + self.upper).min(n - 1 - i) + 1;
             let row = &self.entries[i * width + lower..i * width + lower + columns];
-            let known: f64 = row[1..].iter().zip(&side[i + 1..]).map(|(a, x)| a * x).sum();
-            side[i] = (side[i] - known) / row[0];
+            let mut rest = sides[i];
+            for (a, x) in row[1..].iter().zip(&sides[i + 1..]) {
+                for (rest, x) in rest.iter_mut().zip(x) {
+                    *rest -= a * x;
+                }
+            }
+            sides[i] = rest.map(|x| x / row[0]);
         }
     }
 }

@@ -1,12 +1,14 @@
 //! What is solved: immutable values in SI, checked against each other. After this nothing is out of range and no unit remains.
 
 mod bed;
+mod coupled;
 mod grains;
 mod others;
 mod sheet;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
+pub use coupled::{Coupled, Surface};
 pub use grains::{GrainBed, Impact, Trial};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
@@ -48,6 +50,8 @@ pub enum Model {
     SheetFlow(SheetFlow),
     /// a bed of spheres, grain by grain
     Grains(GrainBed),
+    /// grains in a fluid that drives them
+    Coupled(Coupled),
     /// the impact of one sphere
     Impact(Impact),
     /// a few grains, held against what is known exactly
@@ -105,6 +109,10 @@ impl Problem {
             Scene::GrainsBed(scene) => {
                 let bed = grains::bed(scene, &mut faults);
                 (bed.map(Model::Grains), bed.map_or(0, |bed| bed.mobile))
+            }
+            Scene::Coupled(scene) => {
+                let coupled = coupled::coupled(scene, case.model, &mut faults);
+                (coupled.map(Model::Coupled), coupled.map_or(0, |coupled| coupled.bed.mobile))
             }
             Scene::Impact(scene) => (Some(Model::Impact(grains::impact(scene))), 1),
             Scene::Trial(scene) => (Some(Model::Trial(grains::trial(scene))), 1),

@@ -46,6 +46,8 @@ catalogue! {
     CUMULATIVE_FLUX = "cumulative_flux_m2_s", "cumulative flux", "Π", "m²/s", "integral of the solid flux density from the bottom";
     EDDY_VISCOSITY = "eddy_viscosity_m2_s", "eddy viscosity", "ν_t", "m²/s", "kinematic eddy viscosity";
     GRANULAR_TEMPERATURE = "granular_temperature_m2_s2", "granular temperature", "T", "m²/s²", "a third of the mean square of the grain velocity about its mean in the slice";
+    U_FLUID_STDERR = "u_fluid_m_s_stderr", "standard error of the fluid velocity", "σ(u_f)", "m/s", "by block averaging";
+    TAU_REYNOLDS_STDERR = "tau_reynolds_Pa_stderr", "standard error of the Reynolds stress", "σ(R_xz)", "Pa", "by block averaging";
     PHI_STDERR = "phi_stderr", "standard error of the solid fraction", "σ(φ)", "1", "by block averaging";
     U_PARTICLE_STDERR = "u_particle_m_s_stderr", "standard error of the grain velocity", "σ(u_p)", "m/s", "by block averaging";
     GRANULAR_TEMPERATURE_STDERR = "granular_temperature_m2_s2_stderr", "standard error of the granular temperature", "σ(T)", "m²/s²", "by block averaging";
@@ -59,6 +61,9 @@ catalogue! {
     ITERATION = "iteration", "iteration", "n", "1", "evaluation of the residual by the root finder or solver";
     TIME = "time_s", "time", "t", "s", "simulated time";
     KINETIC_ENERGY = "kinetic_energy_J", "kinetic energy", "E_k", "J", "of the mobile grains, translation and rotation";
+    RATE_IN_TIME = "transport_rate_m2_s", "transport rate", "q_p", "m²/s", "solid volume per unit width and time, mean since the sample before";
+    SHIELDS_IN_TIME = "shields_turbulent", "turbulent Shields number", "θ*", "1", "largest Reynolds stress of the column over (ρ_p - ρ_f) g d";
+    LEVEL_IN_TIME = "bed_level_m", "bed level", "z_b", "m", "where the solid fraction, averaged over a diameter, falls to half of its largest value";
     RESIDUAL = "residual", "relative residual", "r", "1", "magnitude of the residual relative to the scale that the model states";
 }
 
@@ -71,6 +76,12 @@ catalogue! {
     TRANSPORT_RATE_MASS = "transport_rate_kg_m_s", "transport rate by mass", "ρ_p q_p", "kg/(m s)", "solid mass per unit width and time";
     TRANSPORT_RATE_BULK = "transport_rate_bulk_m2_s", "bulk transport rate", "q_p/φ", "m²/s", "transport rate with the pores of the bed";
     TRANSPORT_RATE_DIMENSIONLESS = "transport_rate_dimensionless", "dimensionless transport rate", "Q*", "1", "q_p/(d sqrt((ρ_p/ρ_f - 1) g d)), g the full gravity";
+    TRANSPORT_RATE_BEADS = "transport_rate_beads_1_s", "transport rate by number", "n", "1/s", "grains that pass a cross-section of the channel per unit time";
+    SHIELDS_TURBULENT = "shields_turbulent", "turbulent Shields number", "θ*", "1", "largest mean Reynolds stress over (ρ_p - ρ_f) g d";
+    SHIELDS_NOMINAL = "shields_nominal", "nominal Shields number", "θ_n", "1", "ρ_f g h_w sin(α) over (ρ_p - ρ_f) g d, h_w the water depth";
+    WATER_DEPTH = "water_depth_m", "water depth", "h_w", "m", "free surface over the bed level";
+    TRANSIENT = "transient_s", "transient", "t_0", "s", "time before the first sample that is averaged";
+    AVERAGED_TIME = "averaged_time_s", "averaged time", "T", "s", "time over which the means are taken";
     FLUID_DISCHARGE = "fluid_discharge_m2_s", "fluid discharge", "q_f", "m²/s", "integral of (1 - φ) u_f over z, per unit width";
     DISCHARGE = "discharge_m2_s", "discharge", "q", "m²/s", "integral of the velocity over z, per unit width";
     U_MAX = "u_max_m_s", "largest velocity", "u_max", "m/s", "largest mixture velocity";

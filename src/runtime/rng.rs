@@ -20,6 +20,14 @@ impl Stream {
         self.0 = self.0.wrapping_add(GOLDEN);
         (mix(self.0) >> 11) as f64 / (1_u64 << 53) as f64
     }
+
+    /// Two independent normal numbers of mean 0 and variance 1 (Box & Muller 1958, doi:10.1214/aoms/1177706645).
+    pub fn normal_pair(&mut self) -> [f64; 2] {
+        // 1 - u is in (0, 1]: its logarithm is finite.
+        let length = (-2.0 * libm::log(1.0 - self.uniform())).sqrt();
+        let angle = 2.0 * std::f64::consts::PI * self.uniform();
+        [length * libm::cos(angle), length * libm::sin(angle)]
+    }
 }
 
 /// The odd word nearest to 2^64 over the golden ratio.

@@ -79,6 +79,7 @@ impl Focus {
             | Model::BagnoldFilm(_)
             | Model::LogLaw(_)
             | Model::Grains(_)
+            | Model::Coupled(_)
             | Model::Impact(_)
             | Model::Trial(_) => None,
         }

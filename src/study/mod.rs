@@ -16,6 +16,7 @@ pub mod range;
 mod record;
 mod regularisation;
 mod runner;
+mod sheet;
 pub mod sweep;
 
 use std::path::PathBuf;

@@ -89,6 +89,7 @@ fn judge(varied: &[Varied], axis: Option<usize>, rows: &[Row]) -> Judgement {
             .insert(label.into(), json!({ "quantity": shown.name, "value": value, "values": row.point.values }));
     }
     judgement.figures.extend(figure(varied, axis, rows, shown));
+    judgement.figures.extend(super::sheet::figures(rows));
     judgement
 }
 

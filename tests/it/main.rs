@@ -17,6 +17,7 @@ mod paths;
 mod report;
 mod schema;
 mod sheet;
+mod sheet_statements;
 mod studies;
 mod support;
 mod sweep;

@@ -2,6 +2,7 @@
 
 pub mod carman_kozeny;
 pub mod dallavalle;
+pub mod dallavalle_grain;
 pub mod none;
 
 use schemars::JsonSchema;
@@ -10,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::Info;
 pub use carman_kozeny::CarmanKozeny;
 pub use dallavalle::Dallavalle;
+pub use dallavalle_grain::{DallavalleGrain, GrainDrag};
 
 /// Drag law.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -107,4 +107,8 @@ fn grains_drag_the_fluid_along() {
     let forcing = Forcing { drive: 5.0, bottom: Bottom::Stress(0.0), top: Top::FreeSurface };
     let (column, _) = steady(grid, Setup::laminar(1e3, 1e-12), &grains, forcing);
     assert!(error(&column, |z| 1.07 - 3.0 * z * z) < 1e-12);
+    // What drives the fluid ends in the grains.
+    let mut force = [0.0; 9];
+    column.force_on_grains(&grains, &mut force).unwrap();
+    force.into_iter().for_each(|f| assert_relative_eq!(f, 0.7 * 5.0, max_relative = 1e-10));
 }

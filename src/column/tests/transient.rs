@@ -75,8 +75,10 @@ fn momentum_gained_by_the_fluid_alone() {
     let forcing = Forcing { drive: 3.0, bottom: Bottom::Stress(0.0), top: Top::FreeSurface };
     let mut column = FluidColumn::new(grid, Setup::laminar(2.0, 1.0)).unwrap();
     for n in 1..=4 {
-        column.step(&grains, &forcing, 0.5).unwrap();
+        let balance = column.step(&grains, &forcing, 0.5).unwrap().balance;
         assert!(error(&column, |_| 0.75 * f64::from(n)) < 1e-13);
+        assert_relative_eq!(balance.inertia, 3.0 * 0.7, max_relative = 1e-13);
+        assert!(balance.relative().abs() < 1e-13);
     }
 }
 

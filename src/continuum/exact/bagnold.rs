@@ -191,6 +191,19 @@ mod tests {
     }
 
     #[test]
+    fn the_profile_is_in_equilibrium() {
+        let film = film(24.0);
+        let profile = run(&film, 50, &mut crate::result::Quiet).unwrap().profile.unwrap();
+        let column = |quantity| profile.get(quantity).unwrap().iter().map(|x| x.unwrap()).collect::<Vec<_>>();
+        let (stress, pressure) = (column(&q::TAU_PARTICLE), column(&q::P_PARTICLE));
+        for (i, z) in profile.axis().into_iter().enumerate() {
+            let weight = film.phi * film.rho_p * film.g * (film.h - z);
+            assert_relative_eq!(stress[i].hypot(pressure[i]), weight, max_relative = 1e-12);
+            assert!((stress[i] - film.beta.tan() * pressure[i]).abs() < 1e-12 * weight.max(1e-3));
+        }
+    }
+
+    #[test]
     fn rest_and_runaway() {
         assert_eq!(Solution::new(&film(20.0)).unwrap().discharge(), 0.0);
         assert!(matches!(Solution::new(&film(33.0)), Err(SolveError::NoSteadyFilm { .. })));

@@ -229,6 +229,18 @@ mod tests {
     }
 
     #[test]
+    fn the_stresses_of_the_profile_add_up_and_the_viscous_one_is_viscous() {
+        let plane = plane(3.0, BinghamDrive::PressureGradient(40.0));
+        let profile = run(&plane, 50, &mut crate::result::Quiet).unwrap().profile.unwrap();
+        let column = |quantity| profile.get(quantity).unwrap().iter().map(|x| x.unwrap()).collect::<Vec<_>>();
+        let [viscous, plastic, rate] = [&q::TAU_VISCOUS, &q::TAU_PARTICLE, &q::SHEAR_RATE].map(column);
+        for (i, z) in profile.axis().into_iter().enumerate() {
+            assert!((viscous[i] + plastic[i] - 40.0 * (0.5 * plane.h - z)).abs() < 1e-10);
+            assert!((viscous[i].abs() - plane.eta * rate[i]).abs() < 1e-9, "{z}: {} {}", viscous[i], rate[i]);
+        }
+    }
+
+    #[test]
     fn nothing_moves_below_the_yield_stress() {
         let solution = solve(&plane(3.0, BinghamDrive::PressureGradient(11.9)));
         assert_eq!(solution.mean(), 0.0);

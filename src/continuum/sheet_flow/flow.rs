@@ -73,14 +73,16 @@ pub struct Unknowns<T> {
     pub r: T,
     /// fluid stress, viscous and turbulent
     pub s: T,
-    /// slip U - u_p at the nodes above and below
-    pub w: (T, T),
-    /// decompaction at the nodes above and below
-    pub d: (T, T),
-    /// solid volume of the bed per area
+    /// slip U - u_p, mean of the nodes above and below
+    pub w: T,
+    /// decompaction, mean of the nodes above and below
+    pub d: T,
+    /// solid volume per area of the cells
     pub m: T,
     /// sine of the slope
     pub sine: T,
+    /// solid volume per area at rest below the cells
+    pub rest: T,
 }
 
 impl Flow {
@@ -149,15 +151,14 @@ impl Flow {
     pub fn cell<T: Real>(&self, middle: f64, size: f64, x: &Unknowns<T>) -> Cell<T> {
         let cosine = (-(x.sine * x.sine) + 1.0).sqrt();
         let pressure = cosine * x.m * middle;
-        let slip = (x.w.0 + x.w.1) * 0.5;
-        let rate = self.rearrangement.rate(&self.grain(), pressure, slip);
+        let rate = self.rearrangement.rate(&self.grain(), pressure, x.w);
         // The law is odd in the shear rate.
         let creep = if self.lambda == 0.0 { T::constant(0.0) } else { T::constant(self.lambda) / rate };
         let inertia = self.friction.mobilised(x.r.abs(), creep);
         let speed = inertia * rate;
         let gamma = if x.r.value() < 0.0 { -speed } else { speed };
         let phi = self.dilatancy.solid_fraction(inertia);
-        let length = self.mixing_length((x.d.0 + x.d.1) * 0.5, x.m * (1.0 - middle));
+        let length = self.mixing_length(x.d, x.m * (1.0 - middle) + x.rest);
         let a = (-phi + 1.0) * length * length;
         let (shear, tau_f) = Self::shear(x.s, a, self.viscosity.fluidity(phi) / self.nu);
         let dm = x.m * size;

@@ -57,21 +57,16 @@ impl Column {
         history: &mut Vec<f64>,
         mut stop: impl FnMut(usize, f64) -> bool,
     ) -> Result<State, Stalled> {
-        let n = self.mesh.cells();
-        let mut cells: Vec<Lagged> = (0..n).map(|c| self.lag(&mut state, c)).collect();
-        let mut residual = vec![0.0; STRIDE * n];
+        let mut cells = self.lagged(&mut state);
+        let mut residual = vec![0.0; STRIDE * self.mesh.cells()];
         let mut smallest = f64::INFINITY;
         for turn in 0..pace.most {
-            self.exchange(&mut state);
-            if self.velocities(&mut state, &cells, pace.dt).is_none() {
+            if self.turn(&mut state, &mut cells, pace.dt).is_none() {
                 return Err(Stalled::new(smallest, turn));
-            }
-            for c in (0..n).rev() {
-                cells[c] = self.lag(&mut state, c);
             }
             if turn % LOOK == 0 {
                 bed::residual(&self.flow, &self.mesh, &state, &mut residual);
-                let closing = self.setting.closing_residual(&self.flow, &self.meshes, &self.mesh, &state);
+                let closing = self.setting.closing_residual(self, &state);
                 let norm = self.norm(&residual, &closing, &state);
                 history.push(norm);
                 smallest = smallest.min(norm);
@@ -84,6 +79,28 @@ impl Column {
             }
         }
         Err(Stalled::new(smallest, pace.most))
+    }
+
+    /// The state after all turns of `pace`; `None` if a system is singular.
+    #[must_use]
+    pub fn turns(&self, mut state: State, pace: &Pace) -> Option<State> {
+        let mut cells = self.lagged(&mut state);
+        (0..pace.most).try_for_each(|_| self.turn(&mut state, &mut cells, pace.dt))?;
+        Some(state)
+    }
+
+    fn lagged(&self, state: &mut State) -> Vec<Lagged> {
+        (0..self.mesh.cells()).map(|c| self.lag(state, c)).collect()
+    }
+
+    /// One turn of the iteration.
+    fn turn(&self, state: &mut State, cells: &mut [Lagged], dt: f64) -> Option<()> {
+        self.exchange(state);
+        self.velocities(state, cells, dt)?;
+        for c in (0..cells.len()).rev() {
+            cells[c] = self.lag(state, c);
+        }
+        Some(())
     }
 
     /// Laws in cell `c` from the velocities: sets its friction, stress and decompaction, and gives its coefficients.

@@ -1,7 +1,12 @@
 //! Where the nodes go: in the bed by solid volume below the interface, above it by height.
 
-/// Width of the region of small cells around the yield level, as a share of its depth.
-const CORNER: f64 = 0.05;
+/// Shares of the cells of the moving grains that go by the logarithm of the depth, by the depth, and by the root of the
+/// distance to the yield level.
+const MOVING: [f64; 3] = [0.5, 0.3, 0.2];
+/// The same above the interface, up to the level without stress.
+const ABOVE: [f64; 3] = [0.8, 0.0, 0.2];
+/// Share of the cells of a bed that creeps that lie below the yield level.
+const BELOW: f64 = 0.25;
 
 /// Shares of a length: `nodes` from 0 to 1, and the middles of the cells between them.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,57 +18,89 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// `cells` cells whose number up to `x` follows the increasing function `count`; the middles are those of the count.
-    fn by_count(cells: usize, count: impl Fn(f64) -> f64) -> Self {
-        let (low, high) = (count(0.0), count(1.0));
-        let at = |share: f64| {
-            let wanted = low + (high - low) * share;
-            let (mut a, mut b) = (0.0, 1.0);
-            // Bisection in the logarithm near 0, where the cells are small.
-            while b - a > f64::EPSILON * b {
-                let middle = if a > 0.0 && b > 4.0 * a { (a * b).sqrt() } else { 0.5 * (a + b) };
-                if middle <= a || middle >= b {
+    /// Cells from 0 to 1: the given shares of them by the logarithm of the distance to 0 beyond `top`, evenly, and by the root
+    /// of the distance to 1, which makes powers of that root smooth.
+    fn graded(cells: usize, top: f64, [log, even, root]: [f64; 3]) -> Self {
+        let whole = (1.0 / top).ln_1p();
+        // The number of cells beyond x = 1 - y^2, as a share, and its slope by y.
+        let beyond = |y: f64| {
+            let x = 1.0 - y * y;
+            let count = log * (1.0 - (x / top).ln_1p() / whole) + even * y * y + root * y;
+            (count, 2.0 * y * (log / (whole * (top + x)) + even) + root)
+        };
+        let mut y = 1.0;
+        let mut at = |share: f64| {
+            let (mut low, mut high) = (0.0, y);
+            // Newton's method between bounds, from the place before.
+            for _ in 0..60 {
+                let (count, slope) = beyond(y);
+                let miss = count - (1.0 - share);
+                if miss > 0.0 {
+                    high = y
+                } else {
+                    low = y
+                }
+                let next = y - miss / slope;
+                let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+                let settled = (next - y).abs() <= 4.0 * f64::EPSILON;
+                y = next;
+                if settled {
                     break;
                 }
-                if count(middle) < wanted { a = middle } else { b = middle }
             }
-            0.5 * (a + b)
+            1.0 - y * y
         };
-        let n = cells as f64;
-        let mut nodes: Vec<f64> = (0..=cells).map(|j| at(j as f64 / n)).collect();
-        nodes[0] = 0.0;
+        let (mut nodes, mut middles) = (vec![0.0], Vec::with_capacity(cells));
+        for c in 0..cells {
+            middles.push(at((c as f64 + 0.5) / cells as f64));
+            nodes.push(at((c as f64 + 1.0) / cells as f64));
+        }
         nodes[cells] = 1.0;
-        Self { nodes, middles: (0..cells).map(|c| at((c as f64 + 0.5) / n)).collect() }
+        Self { nodes, middles }
     }
 
-    /// The bed, from the interface down to 1: fine at the interface, where the pressure vanishes (`top` is the scale there, as
-    /// a share), and around the yield level, at the share `mobile`, where the solid fraction has a corner; sparse below.
+    /// The pressure of a cell of the bed is that at half of its volume.
+    fn halved(nodes: Vec<f64>) -> Self {
+        let middles = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+        Self { nodes, middles }
+    }
+
+    /// The moving grains, from the interface down to the yield level at 1: fine at the interface, where the pressure vanishes
+    /// (`top` is the scale there, as a share), and at the yield level, where the solid fraction goes like the root of the
+    /// distance.
+    #[must_use]
+    pub fn moving(cells: usize, top: f64) -> Self {
+        Self::halved(Self::graded(cells, top, MOVING).nodes)
+    }
+
+    /// The whole bed, whose yield level is at the share `mobile`: above it as [`Mesh::moving`].
     #[must_use]
     pub fn bed(cells: usize, top: f64, mobile: f64) -> Self {
-        let log = |x: f64| (1.0 + x * mobile / top).ln() / (1.0 + mobile / top).ln();
-        let even = |x: f64| x.atan() / 1f64.atan();
-        let corner = |x: f64| ((x - 1.0) / CORNER).asinh() / (2.0 * (1.0 / CORNER).asinh());
-        let mut mesh = Self::by_count(cells, |x| {
-            let y = x / mobile;
-            0.38 * log(y) + 0.32 * even(y) + 0.22 * corner(y) + 0.08 * x
+        let below = ((BELOW * cells as f64) as usize).max(2);
+        let moving = Self::graded(cells - below, top / mobile, MOVING).nodes;
+        let deeper = (1..=below).map(|j| {
+            let share = j as f64 / below as f64;
+            mobile + (1.0 - mobile) * share * share
         });
-        // The pressure of a cell is that at half of its volume.
-        mesh.middles = mesh.nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
-        mesh
+        let mut nodes: Vec<f64> = moving.iter().map(|x| x * mobile).chain(deeper).collect();
+        nodes[cells] = 1.0;
+        Self::halved(nodes)
     }
 
     /// The suspension, from the interface up to where the stress vanishes: by the logarithm of the distance beyond `bottom`,
     /// and by the root of the distance to the top, in which the decay of the suspension is smooth.
     #[must_use]
     pub fn suspension(cells: usize, bottom: f64) -> Self {
-        let log = move |x: f64| (1.0 + x / bottom).ln() / (1.0 + 1.0 / bottom).ln();
-        Self::by_count(cells, |x| 0.6 * log(x) + 0.4 * (1.0 - (1.0 - x).sqrt()))
+        Self::graded(cells, bottom, ABOVE)
     }
 
     /// Under a lid: by the root of the distance to the level without stress.
     #[must_use]
     pub fn under_lid(cells: usize) -> Self {
-        Self::by_count(cells, f64::sqrt)
+        let at = |share: f64| share * share;
+        let n = cells as f64;
+        let nodes = (0..=cells).map(|j| at(j as f64 / n)).collect();
+        Self { nodes, middles: (0..cells).map(|c| at((c as f64 + 0.5) / n)).collect() }
     }
 
     /// Number of cells.
@@ -88,8 +125,12 @@ mod tests {
         let bed = Mesh::bed(200, 1e-3, 0.25);
         assert_eq!((bed.nodes.len(), bed.nodes[0], bed.nodes[200]), (201, 0.0, 1.0));
         assert!(bed.nodes.windows(2).all(|pair| pair[1] > pair[0]));
-        let corner = bed.nodes.partition_point(|&x| x < 0.25);
-        assert!(bed.size(0) < 0.05 * bed.size(199) && bed.size(corner) < 0.2 * bed.size(199));
+        let corner = bed.nodes.iter().position(|&x| x == 0.25).unwrap();
+        assert!(bed.size(0) < 0.05 * bed.size(199) && bed.size(corner) < 0.05 * bed.size(199));
+        let largest = (0..corner).map(|c| bed.size(c)).fold(0.0, f64::max);
+        assert!(bed.size(corner - 1) < 0.1 * largest, "{} {largest}", bed.size(corner - 1));
+        let moving = Mesh::moving(150, 4e-3);
+        assert!(moving.nodes.iter().zip(&bed.nodes).all(|(a, b)| (0.25 * a - b).abs() < 1e-13));
         let top = Mesh::suspension(100, 0.02);
         assert!(top.size(0) < 2e-3 && top.size(99) < 1e-3, "{} {}", top.size(0), top.size(99));
         assert!(top.middles.iter().zip(top.nodes.windows(2)).all(|(m, pair)| pair[0] < *m && *m < pair[1]));

@@ -11,6 +11,7 @@ mod equations;
 pub mod flow;
 pub mod iteration;
 pub mod layers;
+pub mod linear;
 pub mod mesh;
 pub mod newton;
 mod outcome;

@@ -1,14 +1,14 @@
-//! Newton's method on the whole column: the bed as a banded system, bordered by the stress on the interface, the slope and
-//! the amount of grains, with exact derivatives and a line search.
+//! Newton's method on the whole column: the bed as a banded system, bordered by the stress on the interface, the slope, the
+//! amount of grains and that of grains at rest, with exact derivatives and a line search.
 
-use nalgebra::{LU, Matrix3, U3, Vector3};
+use nalgebra::{LU, Matrix4, U4, Vector4};
 
-use super::bed::{self, Linearised, LocalCell, STRIDE, State};
-use super::column::{Closing, Setting};
+use super::bed::{self, STRIDE, State};
+use super::column::{Closing, Floor, Setting};
 use super::flow::Flow;
+use super::linear::{Linearised, LocalCell, local_cell};
 use super::mesh::Mesh;
 use super::suspension::Meshes;
-use crate::numerics::banded::Banded;
 
 /// The discrete column.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,8 @@ pub struct Column {
     pub mesh: Mesh,
     /// meshes above it
     pub meshes: Meshes,
+    /// what lies under the mesh of the bed
+    pub floor: Floor,
 }
 
 /// A Newton iteration that went nowhere.
@@ -30,15 +32,24 @@ pub struct Stalled {
     pub residual: f64,
     /// iterations made
     pub iterations: usize,
-    /// level that the bed reached without holding its grains, in grain diameters, where that is the reason
-    pub level: Option<f64>,
+    /// why there is no solution, where that is known
+    pub reason: Option<Reason>,
+}
+
+/// Why there is no solution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reason {
+    /// the bed reached this level without holding its grains, in grain diameters
+    RunsAway(f64),
+    /// all grains move, down to the bottom
+    AllMove,
 }
 
 impl Stalled {
     /// A method that went nowhere.
     #[must_use]
     pub fn new(residual: f64, iterations: usize) -> Self {
-        Self { residual, iterations, level: None }
+        Self { residual, iterations, reason: None }
     }
 }
 
@@ -59,38 +70,44 @@ impl Column {
     /// The cells of the bed with their derivatives.
     #[must_use]
     pub fn local_cells(&self, state: &State) -> Vec<LocalCell> {
-        (0..self.mesh.cells()).map(|c| bed::local_cell(&self.flow, &self.mesh, state, c)).collect()
+        (0..self.mesh.cells()).map(|c| local_cell(&self.flow, &self.mesh, state, c)).collect()
     }
 
     /// Solves from `state`; the residuals go to `history`.
     ///
     /// # Errors
     /// [`Stalled`] if the residual does not reach round-off.
-    pub fn newton(&self, mut state: State, history: &mut Vec<f64>) -> Result<State, Stalled> {
+    pub fn newton(&self, state: State, history: &mut Vec<f64>) -> Result<State, Stalled> {
+        self.newton_to(state, TOLERANCE, history)
+    }
+
+    /// As [`Column::newton`], to the relative residual `tolerance`.
+    ///
+    /// # Errors
+    /// [`Stalled`] if the residual does not get there.
+    pub fn newton_to(&self, mut state: State, tolerance: f64, history: &mut Vec<f64>) -> Result<State, Stalled> {
         let mut system = Linearised::new(self.mesh.cells());
         let mut scratch = vec![0.0; STRIDE * self.mesh.cells()];
         let (mut best, mut without) = ((f64::INFINITY, state.clone()), 0);
         for iteration in 0..MOST {
             let cells = self.local_cells(&state);
             system.fill(&self.flow, &self.mesh, &state, &cells);
-            let closing = self.setting.closing(&self.flow, &self.meshes, &self.mesh.middles, &state, &cells);
+            let closing = self.setting.closing(self, &state, &cells);
             let norm = self.norm(&system.residual, &closing.residual, &state);
             history.push(norm);
             if !norm.is_finite() {
                 break;
             }
-            let converged = best.0 <= TOLERANCE;
+            let converged = best.0 <= tolerance;
             if norm < best.0 {
                 best = (norm, state.clone());
             }
             // One step after convergence gives what round-off allows.
-            if converged || norm <= 0.01 * TOLERANCE {
+            if converged || norm <= 0.01 * tolerance {
                 return Ok(best.1);
             }
-            let residual = system.residual.clone();
-            let Some(factored) = Factored::new(&mut system, &closing) else { break };
-            let step = factored.solve(&residual, &closing.residual);
-            let merit = self.merit(&residual, &closing.residual, &state);
+            let merit = self.merit(&system.residual, &closing.residual, &state);
+            let Some(step) = solve(&mut system, &closing) else { break };
             let (next, decreased) = self.search(&state, &step, merit, &mut scratch);
             state = next;
             without = if decreased { 0 } else { without + 1 };
@@ -98,29 +115,30 @@ impl Column {
                 return Err(Stalled::new(best.0, iteration));
             }
         }
-        if best.0 <= TOLERANCE { Ok(best.1) } else { Err(Stalled::new(best.0, history.len())) }
+        if best.0 <= tolerance { Ok(best.1) } else { Err(Stalled::new(best.0, history.len())) }
     }
 
     /// Scales of the rows of a node and its cell, then of the closing equations.
-    fn scales(&self, state: &State) -> ([f64; STRIDE], [f64; 3]) {
+    fn scales(&self, state: &State) -> ([f64; STRIDE], [f64; 4]) {
         let stress = self.setting.tau_b.unwrap_or(state.tau_b).abs().max(1e-3);
         let velocity = 10.0 * stress.sqrt();
-        ([stress, stress, velocity, 0.1 * velocity, 1.0], [stress, stress, self.setting.level])
+        let bottom = if self.floor == Floor::Yield { stress } else { self.setting.level };
+        ([stress, stress, velocity, 0.1 * velocity, 1.0], [stress, stress, self.setting.level, bottom])
     }
 
     /// Largest residual in its scale.
     #[must_use]
-    pub fn norm(&self, residual: &[f64], closing: &[f64; 3], state: &State) -> f64 {
-        let (rows, three) = self.scales(state);
+    pub fn norm(&self, residual: &[f64], closing: &[f64; 4], state: &State) -> f64 {
+        let (rows, four) = self.scales(state);
         let bed = residual.iter().enumerate().map(|(i, x)| x.abs() / rows[i % STRIDE]);
-        let closing = closing.iter().zip(three).map(|(x, scale)| x.abs() / scale);
+        let closing = closing.iter().zip(four).map(|(x, scale)| x.abs() / scale);
         bed.chain(closing).fold(0.0, |a: f64, b| if b.is_nan() { f64::NAN } else { a.max(b) })
     }
 
-    fn merit(&self, residual: &[f64], closing: &[f64; 3], state: &State) -> f64 {
-        let (rows, three) = self.scales(state);
+    fn merit(&self, residual: &[f64], closing: &[f64; 4], state: &State) -> f64 {
+        let (rows, four) = self.scales(state);
         let bed: f64 = residual.iter().enumerate().map(|(i, x)| (x / rows[i % STRIDE]).powi(2)).sum();
-        bed + closing.iter().zip(three).map(|(x, scale)| (x / scale).powi(2)).sum::<f64>()
+        bed + closing.iter().zip(four).map(|(x, scale)| (x / scale).powi(2)).sum::<f64>()
     }
 
     /// The longest of the steps 1, 1/2, 1/4, ... that decreases the residual enough, and whether there was one.
@@ -130,7 +148,7 @@ impl Column {
         for _ in 0..HALVINGS {
             self.advance(from, step, alpha, &mut state);
             bed::residual(&self.flow, &self.mesh, &state, scratch);
-            let closing = self.setting.closing_residual(&self.flow, &self.meshes, &self.mesh, &state);
+            let closing = self.setting.closing_residual(self, &state);
             if self.merit(scratch, &closing, &state) <= (1.0 - ENOUGH * alpha) * merit {
                 return (state, true);
             }
@@ -156,40 +174,25 @@ impl Column {
         state.tau_b = limited(from.tau_b, step.1[0]);
         state.sine = limited(from.sine, step.1[1]).min(0.99);
         state.m = limited(from.m, step.1[2]);
+        state.rest = from.rest + alpha * step.1[3];
     }
 }
 
-/// Of the unknowns, and of tau_b, sine, m.
-type Step = (Vec<f64>, Vector3<f64>);
+/// Of the unknowns, and of tau_b, sine, m, rest.
+type Step = (Vec<f64>, Vector4<f64>);
 
-/// The factored Jacobian with its border.
-struct Factored<'a> {
-    jacobian: &'a Banded,
-    columns: [Vec<f64>; 3],
-    closing: &'a Closing,
-    schur: LU<f64, U3, U3>,
-}
-
-impl<'a> Factored<'a> {
-    /// Factors the Jacobian of `system` in place; `None` if it is singular.
-    fn new(system: &'a mut Linearised, closing: &'a Closing) -> Option<Self> {
-        system.jacobian.factor().ok()?;
-        let columns = system.border.clone().map(|mut column| {
-            system.jacobian.solve(&mut column);
-            column
-        });
-        let schur = Matrix3::from_fn(|i, j| closing.by_globals[i][j] - closing.dot(i, &columns[j])).lu();
-        schur.is_invertible().then_some(Self { jacobian: &system.jacobian, columns, closing, schur })
-    }
-
-    /// Minus the inverse of the whole Jacobian times the residuals of the bed and of the closing equations.
-    fn solve(&self, residual: &[f64], closing: &[f64; 3]) -> Step {
-        // J x + B g = -F and C x + E g = -f: x = -y - Y g.
-        let mut y = residual.to_vec();
-        self.jacobian.solve(&mut y);
-        let rhs = Vector3::from_fn(|i, _| self.closing.dot(i, &y) - closing[i]);
-        let g = self.schur.solve(&rhs).unwrap_or_default();
-        let [a, b, c] = &self.columns;
-        (y.iter().enumerate().map(|(k, y)| -y - a[k] * g[0] - b[k] * g[1] - c[k] * g[2]).collect(), g)
-    }
+/// The whole system at a state, eliminated.
+fn solve(system: &mut Linearised, closing: &Closing) -> Option<Step> {
+    system.jacobian.factor().ok()?;
+    // J x + B g = -F and C x + E g = -f: x = -y - Y g.
+    let sides = system.residual.iter().zip(&system.border);
+    let mut columns: Vec<[f64; 5]> = sides.map(|(f, b)| [b[0], b[1], b[2], b[3], *f]).collect();
+    system.jacobian.solve_several(&mut columns);
+    let dot = |row: usize, column: usize| -> f64 {
+        closing.by_unknowns[row].iter().map(|(k, slope)| slope * columns[*k][column]).sum()
+    };
+    let schur: LU<f64, U4, U4> = Matrix4::from_fn(|i, j| closing.by_globals[i][j] - dot(i, j)).lu();
+    let rhs = Vector4::from_fn(|i, _| dot(i, 4) - closing.residual[i]);
+    let g = schur.solve(&rhs)?;
+    Some((columns.iter().map(|y| -y[4] - y[0] * g[0] - y[1] * g[1] - y[2] * g[2] - y[3] * g[3]).collect(), g))
 }

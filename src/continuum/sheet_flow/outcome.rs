@@ -2,11 +2,11 @@
 
 use serde_json::json;
 
-use super::column::Setting;
+use super::column::{Floor, Setting};
 use super::flow::Flow;
 use super::iteration::Pace;
 use super::layers::Layers;
-use super::newton::Stalled;
+use super::newton::{Reason, Stalled};
 use super::profile::profile;
 use super::solve::{self, Solved};
 use crate::closures::dilatancy::phi_i;
@@ -62,8 +62,18 @@ pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
 
 /// Why the method found nothing: no bed at rest can exist, or it failed.
 fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled) -> SolveError {
-    if let Some(level) = stalled.level {
-        return SolveError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d };
+    match stalled.reason {
+        Some(Reason::RunsAway(level)) => {
+            return SolveError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d };
+        }
+        Some(Reason::AllMove) => {
+            let tau_b = setting.tau_b.unwrap_or_else(|| {
+                let room = setting.height - setting.level;
+                flow.fluid_weight(setting.sine.unwrap_or_default()) * room
+            });
+            return SolveError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
+        }
+        None => {}
     }
     // The stress of the interface alone needs this much weight of grains to be held.
     let grains = flow.dilatancy.phi_max * setting.level;
@@ -88,7 +98,8 @@ fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled)
 /// Refuses a solution of the equations that is none of the flow.
 fn refuse(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Result<(), SolveError> {
     let (flow, state, d) = (&solved.column.flow, &solved.state, sheet.d);
-    if state.r(solved.column.mesh.cells() - 1) >= flow.friction.mu_s {
+    let bottom = solved.column.mesh.cells() - 1;
+    if state.rest < 0.0 || (solved.column.floor == Floor::Bottom && state.r(bottom) >= flow.friction.mu_s) {
         return Err(SolveError::NothingAtRest { bed_m: layers.z[0] * d, shields: state.tau_b });
     }
     if layers.lid < -1e-9 * state.tau_b {
@@ -125,7 +136,7 @@ fn results(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Results {
     results.set(&q::PHI_INTERFACE, layers.inflow.phi);
     results.set(&q::BED_LEVEL, layers.z[0] * d);
     results.set(&q::FLOW_HEIGHT, sheet.height);
-    results.set(&q::SOLID_VOLUME_BED, state.m * d);
+    results.set(&q::SOLID_VOLUME_BED, (state.m + state.rest) * d);
     results.set(&q::SOLID_VOLUME_SUSPENSION, layers.totals.volume * d);
     results.set(&q::SLOPE_SINE, state.sine);
     results.set(&q::LID_STRESS, layers.lid * stress);
@@ -189,21 +200,23 @@ fn sheet_results(sheet: &SheetFlow, solved: &Solved, layers: &Layers, results: &
 
 fn balances(solved: &Solved, layers: &Layers) -> Vec<Balance> {
     let (column, state) = (&solved.column, &solved.state);
-    let n = column.mesh.cells();
+    let n = layers.cells.len();
     // Down to the middle of the lowest cell.
     let height = layers.z[0] - layers.middle(n - 1);
-    let volume = state.m * column.mesh.middles[n - 1];
+    let solid: f64 = layers.cells.iter().map(|cell| cell.phi * cell.dz).sum();
+    let volume = solid - 0.5 * layers.cells[n - 1].dm;
     let weight = column.flow.fluid_weight(state.sine) * height + state.sine * volume;
-    let carried = state.s(n - 1) + layers.cells[n - 1].tau_p;
+    let carried = layers.s[n - 1] + layers.cells[n - 1].tau_p;
     let momentum = (carried - weight) / state.tau_b - 1.0;
     let whole = column.flow.dilatancy.phi_max * column.setting.level;
-    let solid: f64 = layers.cells.iter().map(|cell| cell.phi * cell.dz).sum();
     let (sediment, how) = match column.setting.reading {
         BedReading::Initial => (
             (solid + layers.totals.volume) / whole - 1.0,
             "grains in the bed and in suspension against those of the bed at rest",
         ),
-        BedReading::Final => (solid / state.m - 1.0, "integral of the solid fraction of the bed against its grains"),
+        BedReading::Final => {
+            (solid / (state.m + state.rest) - 1.0, "integral of the solid fraction of the bed against its grains")
+        }
     };
     let mut balances = vec![
         balance("momentum", momentum, "stress at the bottom of the bed less its weight against that at the bed level"),

@@ -59,17 +59,18 @@ pub(super) fn profile(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Re
 }
 
 fn rows(solved: &Solved, layers: &Layers) -> Vec<Row> {
-    let (flow, mesh, state) = (&solved.column.flow, &solved.column.mesh, &solved.state);
-    let n = mesh.cells();
+    let flow = &solved.column.flow;
+    let n = layers.cells.len();
     let mut rows = vec![Row { phi: layers.cells[n - 1].phi, u_particle: Some(0.0), ..Row::default() }];
     let mut cumulative = 0.0;
     for c in (0..n).rev() {
         let cell = &layers.cells[c];
-        let (u, w) = (0.5 * (state.u(c) + state.u(c + 1)), 0.5 * (state.w(c) + state.w(c + 1)));
+        let (top, bottom) = (layers.nodes[c], layers.nodes[c + 1]);
+        let (u, w) = (0.5 * (top.0 + bottom.0), 0.5 * (top.1 + bottom.1));
         let [free, viscous, turbulent] = flow.grain().rates(cell.pressure, w);
         let mixture = u + w;
         // To the middle of the cell, over which the velocity is linear.
-        let half = 0.25 * cell.dm * (u + state.u(c + 1));
+        let half = 0.25 * cell.dm * (u + bottom.0);
         rows.push(Row {
             z: layers.middle(c),
             phi: cell.phi,
@@ -78,7 +79,7 @@ fn rows(solved: &Solved, layers: &Layers) -> Vec<Row> {
             u_mixture: mixture,
             flux: cell.phi * u,
             tau_fluid: Some(cell.tau_f),
-            tau_reynolds: Some(state.s(c) - cell.tau_f),
+            tau_reynolds: Some(layers.s[c] - cell.tau_f),
             tau_particle: Some(cell.tau_p),
             pressure: Some(cell.pressure),
             gamma: Some(cell.gamma.abs()),
@@ -91,7 +92,7 @@ fn rows(solved: &Solved, layers: &Layers) -> Vec<Row> {
         });
         cumulative += cell.dm * u;
     }
-    let (u, w) = (state.u(0), state.w(0));
+    let (u, w) = layers.nodes[0];
     let phi = layers.inflow.phi;
     rows.push(Row {
         z: layers.z[0],
@@ -106,6 +107,7 @@ fn rows(solved: &Solved, layers: &Layers) -> Vec<Row> {
         cumulative,
         ..Row::default()
     });
+    let weight = flow.fluid_weight(layers.inflow.sine);
     let mut below = (0.0, phi.ln(), layers.inflow.length, u + w);
     for level in &layers.levels {
         let (shear, eddy, stress) = level.cell;
@@ -114,7 +116,8 @@ fn rows(solved: &Solved, layers: &Layers) -> Vec<Row> {
         let step = phi * u * (level.z - below.0);
         let viscous = flow.nu * shear;
         rows.push(Row {
-            z: layers.z[0] + 0.5 * (below.0 + level.z),
+            // The middle of the midpoint rule, which is that of its mesh in another variable: the stress tells where.
+            z: layers.z[0] + (layers.inflow.tau_b - stress) / weight,
             phi,
             u_fluid: u,
             u_mixture: u,

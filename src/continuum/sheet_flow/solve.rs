@@ -2,17 +2,32 @@
 //! mesh with it; then the regularisation.
 
 use super::bed::{STRIDE, State};
-use super::column::Setting;
+use super::column::{Floor, Setting};
 use super::flow::Flow;
 use super::iteration::Pace;
-use super::newton::{Column, Stalled};
-use super::start::transfer;
+use super::mesh::Mesh;
+use super::newton::{Column, Reason, Stalled};
+use super::start::{Guess, TOP};
 use crate::problem::BedReading;
 
 /// Cells of the coarse mesh, and share of the range of the friction at which the first guess lets the grains shear; tried in
-/// turn.
-const TRIALS: [(usize, f64); 10] =
-    [(80, 0.8), (80, 0.6), (120, 0.8), (50, 0.8), (80, 0.9), (50, 0.6), (120, 0.5), (200, 0.7), (80, 0.4), (160, 0.9)];
+/// turn: on meshes of the moving grains, then on those of the whole bed, where the yield level finds itself.
+const TRIALS: [(Floor, usize, f64); 10] = [
+    (Floor::Yield, 60, 0.8),
+    (Floor::Yield, 60, 0.9),
+    (Floor::Bottom, 80, 0.8),
+    (Floor::Bottom, 80, 0.9),
+    (Floor::Bottom, 80, 0.6),
+    (Floor::Bottom, 50, 0.8),
+    (Floor::Bottom, 120, 0.8),
+    (Floor::Bottom, 120, 0.5),
+    (Floor::Bottom, 200, 0.7),
+    (Floor::Bottom, 160, 0.9),
+];
+/// The first guess of the iteration.
+pub const REST: Guess = Guess { floor: Floor::Bottom, friction: 0.8, mobile: None };
+/// Relative residual at which a coarse solution is good enough to start from.
+const ROUGH: f64 = 1e-5;
 /// A cut that is short by less than this share is long enough.
 const ROUNDING: f64 = 0.02;
 /// The cut lies this far below the change of type.
@@ -52,21 +67,23 @@ type Exact = (Column, State, f64);
 /// [`Stalled`] with the smallest residual if no way leads to a solution.
 pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stalled> {
     let mut history = Vec::new();
-    let mut last = Stalled { residual: f64::INFINITY, iterations: 0, level: None };
+    let mut last = Stalled::new(f64::INFINITY, 0);
     for trial in TRIALS.into_iter().map(Some).chain([None]) {
         let attempt = coarse(flow, setting, trial, cells, &mut history)
             .and_then(|from| refine(flow, setting, cells, &from, &mut history));
         match attempt {
-            Ok((mut column, state, change_of_type)) => {
-                let exact = (flow.lambda > 0.0).then(|| state.clone());
-                let state = column.creep(state, flow.lambda, &mut history)?;
+            Ok((column, state, change_of_type)) if flow.lambda == 0.0 => {
+                return Ok(Solved { column, state, exact: None, history, change_of_type });
+            }
+            Ok((column, state, change_of_type)) => {
+                let (column, state, exact) = column.creep(&state, flow.lambda, &mut history)?;
                 return Ok(Solved { column, state, exact, history, change_of_type });
             }
             Err(stalled) => {
-                if stalled.residual < last.residual || stalled.level.is_some() {
+                if stalled.residual < last.residual || stalled.reason.is_some() {
                     last = stalled;
                 }
-                if stalled.level.is_some() {
+                if stalled.reason.is_some() {
                     break;
                 }
             }
@@ -80,22 +97,23 @@ pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stall
 fn coarse(
     flow: Flow,
     setting: Setting,
-    trial: Option<(usize, f64)>,
+    trial: Option<(Floor, usize, f64)>,
     cells: usize,
     history: &mut Vec<f64>,
 ) -> Result<(Column, State), Stalled> {
     let open = Flow { cut: f64::INFINITY, lambda: 0.0, ..flow };
     // The amount of grains is settled last.
     let setting = Setting { reading: BedReading::Final, ..setting };
-    let (size, share) = trial.unwrap_or(TRIALS[0]);
-    let (mut column, mut state) = Column::start(open, setting, size.min(cells), share);
+    let (floor, size, friction) = trial.unwrap_or((Floor::Bottom, 80, 0.8));
+    let (mut column, mut state) =
+        Column::start(open, setting, size.min(cells), Guess { floor, friction, mobile: None });
     if trial.is_none() {
         column.flow.lambda = DETOUR.0;
         state = column.iterate(state, &DETOUR.1, history, |_, _| false)?;
-        state = column.newton(state, history)?;
+        state = column.newton_to(state, ROUGH, history)?;
         column.flow.lambda = 0.0;
     }
-    let state = column.newton(state, history)?;
+    let state = column.newton_to(state, ROUGH, history)?;
     Ok((column, state))
 }
 
@@ -108,11 +126,14 @@ fn refine(
     history: &mut Vec<f64>,
 ) -> Result<Exact, Stalled> {
     let exact = Flow { lambda: 0.0, ..flow };
-    let mobile = coarse.yield_volume(rough);
-    let (mut column, _) = Column::start_at(exact, setting, cells, (TRIALS[0].1, mobile));
+    let Some(mobile) = coarse.yield_volume(rough).filter(|_| coarse.floor == Floor::Bottom || rough.rest > 0.0) else {
+        return Err(Stalled { reason: Some(Reason::AllMove), ..Stalled::new(ROUGH, history.len()) });
+    };
+    let from = Guess { floor: Floor::Yield, friction: REST.friction, mobile: Some(mobile) };
+    let (mut column, _) = Column::start(exact, setting, cells, from);
     let cut = column.flow.cut.max(BEYOND * coarse.change_of_type(rough));
     column.flow.cut = cut;
-    let start = transfer(rough, &coarse.mesh, &column.mesh);
+    let start = coarse.transfer(rough, &column.mesh, (mobile, rough.m + rough.rest - mobile));
     let mut attempt = column.newton(start.clone(), history);
     if attempt.is_err() {
         // The mesh first, the term then.
@@ -146,7 +167,7 @@ pub fn iterate(
     mut stop: impl FnMut(usize, f64) -> bool,
 ) -> Result<Solved, Stalled> {
     let mut history = Vec::new();
-    let (mut column, guess) = Column::start(flow, setting, cells, TRIALS[0].1);
+    let (mut column, guess) = Column::start(flow, setting, cells, REST);
     let mut state = column.iterate(guess, pace, &mut history, &mut stop)?;
     let mut change_of_type = column.change_of_type(&state);
     while BEYOND * change_of_type > column.flow.cut * (1.0 + ROUNDING) {
@@ -169,7 +190,7 @@ impl Column {
     #[must_use]
     pub fn change_of_type(&self, state: &State) -> f64 {
         let negative = |c: &usize| {
-            let cell = super::bed::local_cell(&self.flow, &self.mesh, state, *c);
+            let cell = super::linear::local_cell(&self.flow, &self.mesh, state, *c);
             let pressure = cell.pressure.value;
             let slope = cell.tau_f.slope[2] - pressure * cell.tau_f.slope[3];
             pressure + cell.phi.value * slope < 0.0
@@ -180,6 +201,9 @@ impl Column {
     /// Solid volume over the lowest place where the grains carry just mu_s P_p; `None` if they carry more down to the bottom.
     #[must_use]
     pub fn yield_volume(&self, state: &State) -> Option<f64> {
+        if self.floor == Floor::Yield {
+            return Some(state.m);
+        }
         let mu_s = self.flow.friction.mu_s;
         let c = (0..self.mesh.cells()).rev().find(|&c| state.r(c) > mu_s)?;
         if c + 1 == self.mesh.cells() {
@@ -198,17 +222,21 @@ impl Column {
         self.setting.reading = BedReading::Final;
         let mut state = self.newton(start, history)?;
         let found = loop {
-            let missing = wanted.closing_residual(&self.flow, &self.meshes, &self.mesh, &state)[2];
+            let missing = wanted.closing_residual(self, &state)[2];
             if missing >= 0.0 {
                 break Ok(state);
             }
             self.setting.level += step;
-            let at_rest = state.r(self.mesh.cells() - 1) < self.flow.friction.mu_s;
+            let at_rest = state.rest > 0.0;
             state = match self.newton(state, history) {
                 Ok(next) if at_rest && self.setting.level < wanted.height => next,
                 _ => {
                     let residual = history.last().copied().unwrap_or(f64::INFINITY);
-                    break Err(Stalled { residual, iterations: history.len(), level: Some(self.setting.level) });
+                    break Err(Stalled {
+                        residual,
+                        iterations: history.len(),
+                        reason: Some(Reason::RunsAway(self.setting.level)),
+                    });
                 }
             };
         };
@@ -216,28 +244,37 @@ impl Column {
         self.newton(found?, history)
     }
 
-    /// From the exact yield to the regularisation `lambda`: at once, or by smaller ones.
-    fn creep(&mut self, exact: State, lambda: f64, history: &mut Vec<f64>) -> Result<State, Stalled> {
-        self.flow.lambda = lambda;
-        if lambda == 0.0 {
-            return Ok(exact);
-        }
-        let largest = (0..self.mesh.cells()).map(|c| exact.w(c)).fold(0.0, f64::max);
-        let mut start = exact;
-        for c in 0..self.mesh.cells() {
+    /// From the exact yield on the mesh of the moving grains to the regularisation `lambda` on that of the whole bed, at once
+    /// or by smaller ones; the last is the exact yield there, if it was found.
+    fn creep(
+        &self,
+        exact: &State,
+        lambda: f64,
+        history: &mut Vec<f64>,
+    ) -> Result<(Self, State, Option<State>), Stalled> {
+        let whole = exact.m + exact.rest;
+        let mesh = Mesh::bed(self.mesh.cells(), TOP / whole, exact.m / whole);
+        let mut start = self.transfer(exact, &mesh, (whole, 0.0));
+        let mut column = Self { mesh, floor: Floor::Bottom, ..self.clone() };
+        let exact = column.newton(start.clone(), history).ok();
+        start = exact.clone().unwrap_or(start);
+        let n = column.mesh.cells();
+        let largest = (0..n).map(|c| start.w(c)).fold(0.0, f64::max);
+        for c in 0..n {
             let w = &mut start.x[STRIDE * c + 1];
             *w = w.max(SEEPAGE * largest);
         }
-        let direct = self.newton(start.clone(), history);
-        if direct.is_ok() {
-            return direct;
+        column.flow.lambda = lambda;
+        if let Ok(state) = column.newton(start.clone(), history) {
+            return Ok((column, state, exact));
         }
-        self.flow.lambda = LOWEST;
-        while self.flow.lambda < lambda {
-            start = self.newton(start, history)?;
-            self.flow.lambda *= LADDER;
+        column.flow.lambda = LOWEST;
+        while column.flow.lambda < lambda {
+            start = column.newton(start, history)?;
+            column.flow.lambda *= LADDER;
         }
-        self.flow.lambda = lambda;
-        self.newton(start, history)
+        column.flow.lambda = lambda;
+        let state = column.newton(start, history)?;
+        Ok((column, state, exact))
     }
 }
