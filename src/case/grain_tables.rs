@@ -39,9 +39,12 @@ pub struct GrainFlow {
     /// Period across the flow, or the distance of the side walls.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
     pub width: f64,
-    /// Whether there are side walls, with the friction of the grains, instead of a period.
+    /// Whether there are side walls instead of a period; with the friction of the grains, unless smooth_walls.
     #[serde(default)]
     pub side_walls: bool,
+    /// Whether the side walls are without friction.
+    #[serde(default)]
+    pub smooth_walls: bool,
     /// Drive: the slope, as slope_definition says; 0 is a bed at rest.
     #[serde(default)]
     #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]

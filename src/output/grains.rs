@@ -2,10 +2,15 @@
 
 use std::fs;
 
-use super::folder::{Folder, OutputError, entries, write_whole};
+use super::folder::{Folder, OutputError, PROBE, entries, write_whole};
 
 /// State from which a run of grains goes on.
 pub const CHECKPOINT: &str = "checkpoint.bin";
+
+/// What a run that was killed may leave behind.
+pub(super) fn is_partial(name: &str) -> bool {
+    name == PROBE || name.starts_with('.') && name.contains(".part-")
+}
 
 /// Pictures of the grains for ParaView.
 pub(super) fn is_frame(name: &str) -> bool {

@@ -24,6 +24,8 @@ pub struct GrainBed {
     pub size: [f64; 2],
     /// whether walls bound y
     pub side_walls: bool,
+    /// whether those are without friction
+    pub smooth_walls: bool,
     /// slope angle [rad]
     pub beta: f64,
     /// gravity [m/s2]
@@ -111,6 +113,7 @@ pub(super) fn bed(scene: &BedScene, faults: &mut Faults) -> Option<GrainBed> {
         bottom: bed.bottom,
         size: [flow.length, flow.width],
         side_walls: flow.side_walls,
+        smooth_walls: flow.smooth_walls,
         beta,
         g: flow.gravity,
         contact,
