@@ -79,14 +79,14 @@ impl Scene<'_> {
         ];
         let fraction = vec![self.curve("", (1, Dash::Solid), |row| self.at(&quantity::PHI, row))];
         let panels = vec![
-            Panel { x: Axis::linear("stress τ/τ_b", ""), curves: stresses },
+            Panel { x: Axis::linear("stress over that on the bed", ""), curves: stresses },
             Panel { x: Axis::linear("solid fraction φ", ""), curves: fraction },
             Panel { x: Axis::linear("flux over its maximum", ""), curves: grains },
         ];
         Figure {
             stem: "sheet".into(),
             caption: format!("{case}: {} over the height in the sheet.", sentence(&panels)),
-            y: Axis::linear("(z - h_c)/δₛ", ""),
+            y: Axis::linear("height over the yield level, in δₛ", ""),
             panels,
             levels: vec![Level { y: 1.0, label: "bed level".into() }],
             tint_below: Some(1.0),

@@ -282,6 +282,20 @@ fn what_has_no_solution_says_why() {
     assert!(["nothing-at-rest", "bed-suspended"].contains(&gone.code()), "{gone:?}");
 }
 
+/// Whether the same flow over a bed twice as deep, with the exact yield, moves more grains than a bed of this level has.
+fn moves_more_than(case: &str, settings: &[&str], level: f64) -> bool {
+    let heavy = case.ends_with('b');
+    let (height, phi_max) = if heavy { (0.125, B.phi_max) } else { (0.175, A.phi_max) };
+    let deeper = [format!("bed.level={}", 2.0 * level), format!("flow.height={}", height + level)];
+    let exact = ["bed.reading=final", "regularisation.law=none", "regularisation.lambda="];
+    let settings: Vec<&str> = settings.iter().copied().chain(deeper.iter().map(String::as_str)).chain(exact).collect();
+    match attempt(case, &settings) {
+        // To what the mesh leaves open.
+        Ok(deep) => get(&deep, "sheet_phi") * get(&deep, "sheet_thickness_m") > 0.995 * phi_max * level,
+        Err(failure) => failure.error.code() == "nothing-at-rest",
+    }
+}
+
 /// Latin hypercube over the ranges of the issue; every point converges or is classified.
 fn hypercube(count: usize, reading: &str) -> Vec<(String, usize)> {
     let mut state = 88_172_645_463_325_252_u64;
@@ -325,6 +339,10 @@ fn hypercube(count: usize, reading: &str) -> Vec<(String, usize)> {
         let case = if heavy { "sheet_1d_type_b" } else { "sheet_1d_type_a" };
         let key = match attempt(case, &settings) {
             Ok(_) => "solved",
+            Err(failure) if failure.error.code() == "nothing-at-rest" => {
+                let level = level * (0.5 + x[7]);
+                if moves_more_than(case, &settings, level) { "nothing-at-rest" } else { "not-converged" }
+            }
             Err(failure) => failure.error.code(),
         };
         if key == "not-converged" {
@@ -342,7 +360,7 @@ fn hypercube(count: usize, reading: &str) -> Vec<(String, usize)> {
 fn a_small_latin_hypercube_converges_from_cold() {
     let tally = hypercube(60, "final");
     let failed: usize = tally.iter().filter(|(name, _)| name == "not-converged").map(|(_, n)| n).sum();
-    assert!(failed <= 2, "{tally:?}");
+    assert_eq!(failed, 0, "{tally:?}");
 }
 
 #[test]
@@ -352,6 +370,6 @@ fn the_latin_hypercube_converges_from_cold() {
         let tally = hypercube(2000, reading);
         println!("{reading}: {tally:?}");
         let failed: usize = tally.iter().filter(|(name, _)| name == "not-converged").map(|(_, n)| n).sum();
-        assert!(failed <= 40, "{tally:?}");
+        assert_eq!(failed, 0, "{tally:?}");
     }
 }
