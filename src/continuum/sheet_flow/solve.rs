@@ -69,9 +69,16 @@ pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stall
     let mut history = Vec::new();
     let mut last = Stalled::new(f64::INFINITY, 0);
     for trial in TRIALS.into_iter().map(Some).chain([None]) {
+        // Where everything seems to move, another guess may know better; the iteration does not.
+        if trial.is_none() && last.reason.is_some() {
+            break;
+        }
         let attempt = coarse(flow, setting, trial, cells, &mut history)
             .and_then(|from| refine(flow, setting, cells, &from, &mut history));
         match attempt {
+            Ok((_, state, _)) if state.rest < 0.0 => {
+                last = Stalled { reason: Some(Reason::AllMove), ..Stalled::new(ROUGH, history.len()) };
+            }
             Ok((column, state, change_of_type)) if flow.lambda == 0.0 => {
                 return Ok(Solved { column, state, exact: None, history, change_of_type });
             }
@@ -80,11 +87,11 @@ pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stall
                 return Ok(Solved { column, state, exact, history, change_of_type });
             }
             Err(stalled) => {
-                if stalled.residual < last.residual || stalled.reason.is_some() {
+                if last.reason.is_none() && (stalled.residual < last.residual || stalled.reason.is_some()) {
                     last = stalled;
                 }
-                if stalled.reason.is_some() {
-                    break;
+                if let Some(Reason::RunsAway(_)) = stalled.reason {
+                    return Err(Stalled { iterations: history.len(), ..stalled });
                 }
             }
         }
@@ -126,14 +133,20 @@ fn refine(
     history: &mut Vec<f64>,
 ) -> Result<Exact, Stalled> {
     let exact = Flow { lambda: 0.0, ..flow };
-    let Some(mobile) = coarse.yield_volume(rough).filter(|_| coarse.floor == Floor::Bottom || rough.rest > 0.0) else {
-        return Err(Stalled { reason: Some(Reason::AllMove), ..Stalled::new(ROUGH, history.len()) });
+    let all_move = Stalled { reason: Some(Reason::AllMove), ..Stalled::new(ROUGH, history.len()) };
+    let mobile = coarse.yield_volume(rough).ok_or(all_move)?;
+    let rest = match setting.reading {
+        BedReading::Final => rough.m + rough.rest - mobile,
+        BedReading::Initial => flow.dilatancy.phi_max * setting.level - mobile,
     };
+    if rest <= 0.0 {
+        return Err(all_move);
+    }
     let from = Guess { floor: Floor::Yield, friction: REST.friction, mobile: Some(mobile) };
     let (mut column, _) = Column::start(exact, setting, cells, from);
     let cut = column.flow.cut.max(BEYOND * coarse.change_of_type(rough));
     column.flow.cut = cut;
-    let start = coarse.transfer(rough, &column.mesh, (mobile, rough.m + rough.rest - mobile));
+    let start = coarse.transfer(rough, &column.mesh, (mobile, rest));
     let mut attempt = column.newton(start.clone(), history);
     if attempt.is_err() {
         // The mesh first, the term then.
@@ -227,9 +240,8 @@ impl Column {
                 break Ok(state);
             }
             self.setting.level += step;
-            let at_rest = state.rest > 0.0;
             state = match self.newton(state, history) {
-                Ok(next) if at_rest && self.setting.level < wanted.height => next,
+                Ok(next) if self.setting.level < wanted.height => next,
                 _ => {
                     let residual = history.last().copied().unwrap_or(f64::INFINITY);
                     break Err(Stalled {
