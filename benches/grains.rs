@@ -5,6 +5,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::process::Command;
 use std::time::Instant;
 
 use bedload::discrete::body::{Body, Pushed, Seen};
@@ -23,9 +24,22 @@ fn cpu_seconds() -> f64 {
     own * 1e-9
 }
 
-/// The steady bed of `../shared/reference`, repeated `copies` times along x, fixed grains first.
+/// The bed that is committed: compressed, and read by the tool that everybody has.
+const BED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/reference/dem_bed/bed_10046_spheres.csv.gz");
+
+/// The text of a file, unpacked where its name says that it is packed.
+fn text_of(file: &str) -> String {
+    if !file.ends_with(".gz") {
+        return fs::read_to_string(file).unwrap_or_else(|e| panic!("{file}: {e}"));
+    }
+    let unpacked = Command::new("gzip").args(["-dc", file]).output().unwrap_or_else(|e| panic!("gzip: {e}"));
+    assert!(unpacked.status.success(), "{file}: {}", String::from_utf8_lossy(&unpacked.stderr));
+    String::from_utf8(unpacked.stdout).unwrap()
+}
+
+/// The steady bed of `reference/dem_bed`, repeated `copies` times along x, fixed grains first.
 fn bed(file: &str, copies: usize) -> Vec<Grain> {
-    let text = fs::read_to_string(file).unwrap_or_else(|e| panic!("{file}: {e}"));
+    let text = text_of(file);
     let rows = text.lines().filter(|l| !l.starts_with('#') && !l.starts_with("id"));
     let mut grains = Vec::new();
     for row in rows {
@@ -99,7 +113,7 @@ fn steps<B: Body>(engine: &mut Engine<LinearSpring>, body: &B, count: usize) {
 fn speed(options: &Options) {
     let (copies, threads) = (options.number("copies", 1), options.number("threads", 1));
     let count = options.number("steps", 3000);
-    let grains = bed(&options.text("bed", "../shared/reference/bed_10046_spheres.csv"), copies);
+    let grains = bed(&options.text("bed", BED), copies);
     let mobile = grains.iter().filter(|g| !g.fixed).count();
     let mut engine = engine(&grains, copies, threads, options.text("law", "lammps") == "own");
     engine.half_step(&PUSHED).unwrap();
@@ -123,7 +137,7 @@ fn speed(options: &Options) {
 
 /// The same from one thousand to one million grains.
 fn scaling(options: &Options) {
-    let file = options.text("bed", "../shared/reference/bed_10046_spheres.csv");
+    let file = options.text("bed", BED);
     for (copies, part, count) in [(1, 0.1, 10000), (1, 1.0, 3000), (10, 1.0, 300), (100, 1.0, 30)] {
         for threads in [1, 2] {
             let mut grains = bed(&file, copies);
@@ -163,7 +177,7 @@ fn scaling(options: &Options) {
 /// Writes positions of all grains after `steps` steps, in the order of the bed.
 fn trajectory(options: &Options) {
     let copies = options.number("copies", 1);
-    let grains = bed(&options.text("bed", "../shared/reference/bed_10046_spheres.csv"), copies);
+    let grains = bed(&options.text("bed", BED), copies);
     let mut engine = engine(&grains, copies, options.number("threads", 1), false);
     engine.half_step(&Region).unwrap();
     steps(&mut engine, &Region, options.number("steps", 300) - 1);

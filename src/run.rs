@@ -6,7 +6,7 @@ use crate::closures::drag::{carman_kozeny, dallavalle, dallavalle_grain};
 use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::{laminar, sheet_flow};
-use crate::discrete::{bed as grain_bed, couple, impact};
+use crate::discrete::{bed as grain_bed, couple, impact, trials};
 use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
 
@@ -30,6 +30,7 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::Grains(bed) => grain_bed::run(bed, watch),
         Model::Coupled(flow) => couple::run(flow, watch),
         Model::Impact(one) => impact::run(one, watch),
+        Model::Trial(trial) => trials::run(trial, watch),
     };
     outcome?.trusted(LARGEST_IMBALANCE)
 }
@@ -48,6 +49,7 @@ pub fn equations(problem: &Problem) -> String {
         Model::Grains(bed) => grain_bed::equations(bed),
         Model::Coupled(flow) => couple::equations(flow),
         Model::Impact(one) => impact::equations(one),
+        Model::Trial(trial) => trials::equations(trial),
     }
 }
 
@@ -63,7 +65,7 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
-        Model::Grains(_) | Model::Impact(_) => vec![&linear_spring::INFO],
+        Model::Grains(_) | Model::Impact(_) | Model::Trial(_) => vec![&linear_spring::INFO],
         Model::Coupled(flow) => vec![
             &linear_spring::INFO,
             &dallavalle_grain::INFO,

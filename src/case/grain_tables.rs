@@ -39,9 +39,12 @@ pub struct GrainFlow {
     /// Period across the flow, or the distance of the side walls.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
     pub width: f64,
-    /// Whether there are side walls, with the friction of the grains, instead of a period.
+    /// Whether there are side walls instead of a period; with the friction of the grains, unless smooth_walls.
     #[serde(default)]
     pub side_walls: bool,
+    /// Whether the side walls are without friction.
+    #[serde(default)]
+    pub smooth_walls: bool,
     /// Drive: the slope, as slope_definition says; 0 is a bed at rest.
     #[serde(default)]
     #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
@@ -83,6 +86,68 @@ pub struct ImpactModel {
 pub enum ImpactKind {
     /// One impact, next to its closed form.
     Impact,
+}
+
+/// The model: grains held against what is known exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TrialModel {
+    /// What kind of model: a few grains, held against a closed form or a conservation law.
+    pub kind: TrialKind,
+    /// Which one.
+    pub trial: Trial,
+}
+
+/// A few grains, held against a closed form or a conservation law.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TrialKind {
+    /// A few grains, held against a closed form or a conservation law.
+    Trial,
+}
+
+/// What grains are held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Trial {
+    /// Head-on impacts for restitution coefficients from 0.1 to 1, both conventions, on wall, fixed and mobile grain.
+    HeadOn,
+    /// Oblique impacts at every degree: the gross-slip law with the contact of the case; energy with many others, too.
+    Oblique,
+    /// A grain that slides on a plane until it rolls.
+    Rolling,
+    /// A grain that bounces on a plane.
+    Bouncing,
+    /// Three grains, one on the other.
+    Stack,
+    /// Two hundred grains that collide: momentum and angular momentum.
+    Cluster,
+    /// Eight grains that collide for a million steps: the account of energies.
+    Ledger,
+    /// Energy of springs and grains together in one impact, against the time step.
+    Springs,
+}
+
+/// How the grains of a trial move.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TrialFlow {
+    /// Velocity at the beginning.
+    #[serde(default = "slow")]
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub velocity: f64,
+    /// Acceleration of gravity.
+    #[serde(default = "gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+}
+
+impl Default for TrialFlow {
+    fn default() -> Self {
+        Self { velocity: slow(), gravity: gravity() }
+    }
+}
+
+fn slow() -> f64 {
+    0.1
 }
 
 /// How a grain hits what is there.

@@ -8,7 +8,8 @@ use serde_json::Value;
 use super::checks::Check;
 use super::coupled::{CoupledBed, CoupledClosures, CoupledDiscrete, CoupledFlow, CoupledModel};
 use super::grain_tables::{
-    Discrete, GrainBed, GrainClosures, GrainFlow, GrainsModel, ImpactFlow, ImpactModel, ImpactSteps,
+    Discrete, GrainBed, GrainClosures, GrainFlow, GrainsModel, ImpactFlow, ImpactModel, ImpactSteps, TrialFlow,
+    TrialModel,
 };
 use super::sheet::{SheetBed, SheetClosures, SheetFlowTable, SheetGrid, SheetModel, SheetRegularisation, SheetSolver};
 use super::tables::{
@@ -238,6 +239,21 @@ scenes! {
         /// Laws.
         closures: GrainClosures,
         /// How finely it is followed.
+        #[serde(default)]
+        discrete: ImpactSteps,
+    }
+    /// A few grains, held against a closed form or a conservation law.
+    Trial ("trial") {
+        /// The grains.
+        grains: Grains,
+        /// How they move.
+        #[serde(default)]
+        flow: TrialFlow,
+        /// The model.
+        model: TrialModel,
+        /// Laws.
+        closures: GrainClosures,
+        /// How finely contacts are followed.
         #[serde(default)]
         discrete: ImpactSteps,
     }

@@ -42,6 +42,14 @@ pub static CASES: &[(&str, &str)] = shipped![
     "sheet_1d_sumer99",
     "sheet_1d_type_a",
     "sheet_1d_type_b",
+    "trial_1d_bouncing",
+    "trial_1d_headon",
+    "trial_1d_springs",
+    "trial_1d_stack",
+    "trial_2d_oblique",
+    "trial_2d_rolling",
+    "trial_3d_cluster",
+    "trial_3d_ledger",
 ];
 
 /// Content of the shipped case of that name.

@@ -45,6 +45,9 @@ pub(super) struct Run {
     /// Go on with an unfinished run of the same case
     #[arg(long)]
     resume: bool,
+    /// Seconds between two checkpoints of a run of grains; 0 is none but at Ctrl-C
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, value_parser = seconds)]
+    checkpoint: f64,
 }
 
 impl Run {
@@ -61,8 +64,11 @@ impl Run {
         let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
         let solving = Instant::now();
         let going_on = checkpoint.is_some();
-        let next = Instant::now() + BETWEEN_CHECKPOINTS;
-        let mut keeper = Keeper { progress, folder: &folder, checkpoint, going_on, next };
+        if going_on {
+            folder.carry_over()?;
+        }
+        let between = (self.checkpoint > 0.0).then(|| Duration::from_secs_f64(self.checkpoint));
+        let mut keeper = Keeper { progress, folder: &folder, checkpoint, going_on, between, last: Instant::now() };
         let result = crate::run(&problem, &mut keeper);
         drop(keeper);
         let solve_s = solving.elapsed().as_secs_f64();
@@ -106,8 +112,10 @@ impl Run {
     }
 }
 
-/// Time between two checkpoints that are not asked for.
-const BETWEEN_CHECKPOINTS: Duration = Duration::from_secs(10);
+fn seconds(text: &str) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|s| (0.0..=1e9).contains(s));
+    value.ok_or_else(|| "a number of seconds from 0 to 1e9".into())
+}
 
 /// Shows the progress, and keeps the files of the run as they come.
 struct Keeper<'a> {
@@ -115,7 +123,9 @@ struct Keeper<'a> {
     folder: &'a Folder,
     checkpoint: Option<Vec<u8>>,
     going_on: bool,
-    next: Instant,
+    /// time between two checkpoints that are not asked for, if there are any
+    between: Option<Duration>,
+    last: Instant,
 }
 
 impl Watch for Keeper<'_> {
@@ -124,17 +134,14 @@ impl Watch for Keeper<'_> {
     }
 
     fn keep(&mut self, name: &str, now: bool, content: &mut dyn FnMut() -> Vec<u8>) -> io::Result<()> {
-        if !now && Instant::now() < self.next {
+        if !now && self.between.is_none_or(|between| self.last.elapsed() < between) {
             return Ok(());
         }
         let bytes = content();
-        let written = if name == CHECKPOINT {
-            self.next = Instant::now() + BETWEEN_CHECKPOINTS;
-            self.folder.write_checkpoint(&bytes, self.going_on)
-        } else {
-            self.folder.write(name, |to| to.write_all(&bytes))
-        };
-        written.map_err(io::Error::other)
+        if name == CHECKPOINT {
+            self.last = Instant::now();
+        }
+        self.folder.write_on_the_way(name, &bytes, self.going_on).map_err(io::Error::other)
     }
 
     fn resumed(&mut self, name: &str) -> Option<Vec<u8>> {

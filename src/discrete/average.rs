@@ -124,11 +124,13 @@ impl Averages {
                 continue;
             }
             let sign = if rise > 0.0 { 1.0 } else { -1.0 };
-            for s in index(low)..(index(high) + 1).min(slices) {
+            let crossed = index(low)..(index(high) + 1).min(slices);
+            for (s, sums) in contact[crossed.clone()].iter_mut().enumerate().map(|(n, sums)| (n + crossed.start, sums))
+            {
                 let from = bottom + s as f64 * thickness;
                 let length = (high.min(from + thickness) - low.max(from)).max(0.0);
-                contact[s][0] -= sign * seen.force[0] * length;
-                contact[s][1] += sign * seen.force[2] * length;
+                sums[0] -= sign * seen.force[0] * length;
+                sums[1] += sign * seen.force[2] * length;
             }
         }
     }

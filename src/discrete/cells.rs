@@ -1,16 +1,24 @@
-//! The grid of cells: the order of the grains, z slowest, and where to look for neighbours.
+//! The grid of cells: the order of the grains, and where to look for neighbours.
+//!
+//! The axis along which there are most cells is the slowest: a layer of cells across it is the smallest that there is, and what
+//! a tile does to grains of the next one remains little however long the bed is.
 
 use super::domain::Domain;
 use super::grains::{Grains, Point};
+
+/// Most ranges of one grain: two layers, three rows in each, two runs of cells in a row.
+const RANGES: usize = 12;
 
 /// Cells no smaller than the reach of a contact.
 #[derive(Clone, Debug, Default)]
 pub struct Cells {
     counts: [usize; 3],
+    /// the axes, that along which cells follow each other first
+    axes: [usize; 3],
     origin: Point,
     per_length: Point,
     periodic: [bool; 3],
-    /// first grain of each cell, and the end; x fastest
+    /// first grain of each cell, and the end
     starts: Vec<u32>,
     /// cell of each grain
     keys: Vec<u32>,
@@ -72,6 +80,8 @@ impl Cells {
                 self.origin[k] = from;
                 self.per_length[k] = if self.periodic[k] { count as f64 / length } else { 1.0 / size };
             }
+            let slow = (0..3).fold(0, |slow, k| if self.counts[k] > self.counts[slow] { k } else { slow });
+            self.axes = [[2, 1, 0], [2, 0, 1], [0, 1, 2]][slow];
             let cells = self.counts.iter().try_fold(1_usize, |all, &n| all.checked_mul(n));
             if cells.is_some_and(|cells| cells <= 8 * grains.len() + 64) {
                 return;
@@ -87,37 +97,49 @@ impl Cells {
         })
     }
 
-    fn index(&self, [x, y, z]: [usize; 3]) -> usize {
-        (z * self.counts[1] + y) * self.counts[0] + x
+    fn index(&self, cell: [usize; 3]) -> usize {
+        let [fast, middle, slow] = self.axes;
+        (cell[slow] * self.counts[middle] + cell[middle]) * self.counts[fast] + cell[fast]
     }
 
-    /// Calls `visit` with the ranges of grains that may be neighbours of grain `i` and come after it.
-    pub fn ahead(&self, i: usize, mut visit: impl FnMut(std::ops::Range<usize>)) {
+    /// The first and the end of each range of grains that may be neighbours of grain `i`, so that each pair is met once: those
+    /// behind it in its layer of cells, and those of the next layer, which is the first again behind the last of a period.
+    #[must_use]
+    pub fn ahead(&self, i: usize) -> ([[usize; 2]; RANGES], usize) {
+        let (mut ranges, mut count) = ([[0; 2]; RANGES], 0);
         let own = self.keys[i] as usize;
-        let [nx, ny, nz] = self.counts;
+        let [fast, middle, slow] = self.axes;
+        let [nx, ny, nz] = self.axes.map(|axis| self.counts[axis]);
         let (x, y, z) = (own % nx, own / nx % ny, own / (nx * ny));
-        let (xs, x_count) = around(x, nx, self.periodic[0]);
-        let (ys, y_count) = around(y, ny, self.periodic[1]);
+        let (xs, x_count) = around(x, nx, self.periodic[fast]);
+        let (ys, y_count) = around(y, ny, self.periodic[middle]);
         let start = |cell: usize| self.starts[cell] as usize;
-        // Cells that follow each other along x are one range.
+        // Cells that follow each other are one range.
         let runs = if x_count == 3 && xs[2] != xs[0] + 2 {
             if xs[1] == 1 { [(0, 1), (xs[2], xs[2])] } else { [(0, 0), (xs[1], xs[2])] }
         } else {
             [(xs[0], xs[x_count - 1]), (1, 0)]
         };
-        for above in z..nz.min(z + 2) {
+        let next = match z + 1 {
+            next if next < nz => Some(next),
+            // Of two layers the first has met the second on both sides.
+            _ => (self.periodic[slow] && nz > 2).then_some(0),
+        };
+        for layer in [Some(z), next].into_iter().flatten() {
             for &row in &ys[..y_count] {
-                let first = self.index([0, row, above]);
-                for (from, to) in runs {
-                    let (from, to) = ((first + from).max(own), first + to);
-                    if from > own && from <= to {
-                        visit(start(from)..start(to + 1));
-                    } else if from == own && from <= to {
-                        visit(i + 1..start(to + 1));
+                let first = (layer * ny + row) * nx;
+                for (from, to) in runs.into_iter().filter(|(from, to)| from <= to) {
+                    let (from, to) = (first + from, first + to);
+                    let begin = if layer != z || from > own { start(from) } else { i + 1 };
+                    let end = if layer != z || to >= own { start(to + 1) } else { 0 };
+                    if begin < end {
+                        ranges[count] = [begin, end];
+                        count += 1;
                     }
                 }
             }
         }
+        (ranges, count)
     }
 }
 

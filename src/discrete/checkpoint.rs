@@ -7,14 +7,14 @@ use sha2::{Digest, Sha256};
 use super::domain::Domain;
 use super::engine::{Engine, Settings};
 use super::grains::Grains;
-use super::lanes::{Load, Pair, Row};
+use super::lanes::{Pair, Row};
 use super::law::ContactLaw;
-use super::tile::{GROUP, Tile, WallList, cut};
+use super::tile::{Tile, WallList, cut};
 use crate::numerics::sum::Sum;
 
 const MAGIC: &[u8; 8] = b"bedload\x01";
 /// Version of the layout.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 const HEAD: usize = 8 + 4 + 32 + 8;
 const DIGEST: usize = 32;
 
@@ -221,7 +221,8 @@ impl<C: ContactLaw> Engine<C> {
         to.rows(&self.reference);
         let l = &self.ledger;
         to.number(l.initial_kinetic);
-        for sum in [l.contacts, l.gravity, l.body, l.impulse[0], l.impulse[1], l.impulse[2]] {
+        l.initial_momentum.into_iter().for_each(|x| to.number(x));
+        for sum in [l.contacts, l.gravity, l.body].into_iter().chain(l.impulse).chain(l.bounds) {
             to.number(sum.value);
             to.number(sum.rest);
         }
@@ -230,7 +231,7 @@ impl<C: ContactLaw> Engine<C> {
             to.words(tile.pairs.iter().map(|p| u64::from(p.i) | u64::from(p.j) << 32));
             to.rows(&tile.springs);
             to.words(tile.touching.iter().map(|&b| u64::from(b)));
-            to.whole(tile.loads.len() as u64);
+            to.whole(tile.reach as u64);
             to.words(tile.walls.grains.iter().copied());
             to.rows(&tile.walls.springs);
             to.words(tile.walls.ranges.iter().map(|r| r.start as u64));
@@ -263,17 +264,19 @@ impl<C: ContactLaw> Engine<C> {
         let mut engine = Self::bare(grains, domain, law, settings, threads);
         (engine.step, engine.way, engine.reference) = (step, way, reference);
         engine.ledger.initial_kinetic = from.number()?;
+        engine.ledger.initial_momentum = [from.number()?, from.number()?, from.number()?];
         let mut sum = || -> Read<Sum> { Ok(Sum { value: from.number()?, rest: from.number()? }) };
         engine.ledger.contacts = sum()?;
         engine.ledger.gravity = sum()?;
         engine.ledger.body = sum()?;
         engine.ledger.impulse = [sum()?, sum()?, sum()?];
+        engine.ledger.bounds = [sum()?, sum()?, sum()?];
         for range in cut(count) {
             let starts = whole32(from.words()?)?;
             let pairs = from.words()?.into_iter().map(|w| Pair { i: w as u32, j: (w >> 32) as u32 }).collect();
             let springs = from.rows()?;
             let touching = from.words()?.into_iter().map(|b| b as u8).collect();
-            let loads = usize::try_from(from.whole()?).map_err(|_| SHORT)?.min(count + GROUP);
+            let reach = usize::try_from(from.whole()?).map_err(|_| SHORT)?;
             let (walls, wall_springs) = (from.words()?, from.rows()?);
             let (begins, ends) = (from.words()?, from.words()?);
             let ranges = begins.into_iter().zip(ends).map(|(a, b)| a as usize..b as usize).collect();
@@ -284,7 +287,7 @@ impl<C: ContactLaw> Engine<C> {
                 springs,
                 touching,
                 walls: WallList { grains: walls, springs: wall_springs, ranges },
-                loads: vec![Load::default(); loads],
+                reach,
                 ..Tile::default()
             };
             if !tile.is_sound(count) {
@@ -292,7 +295,7 @@ impl<C: ContactLaw> Engine<C> {
             }
             engine.tiles.push(tile);
         }
-        engine.share();
+        engine.lay_out();
         Ok(engine)
     }
 }

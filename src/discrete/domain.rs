@@ -41,12 +41,11 @@ impl Domain {
     #[must_use]
     pub fn apart(&self, a: Point, b: Point) -> Point {
         let mut d = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-        for k in 0..2 {
-            let (length, half) = (self.lengths()[k], self.halves()[k]);
-            if d[k] > half {
-                d[k] -= length;
-            } else if -half > d[k] {
-                d[k] += length;
+        for ((x, length), half) in d.iter_mut().zip(self.lengths()).zip(self.halves()) {
+            if *x > half {
+                *x -= length;
+            } else if -half > *x {
+                *x += length;
             }
         }
         d

@@ -5,14 +5,13 @@ use super::body::Body;
 use super::cells::Cells;
 use super::domain::Domain;
 use super::error::GrainError;
-use super::forces::{self, Scene, Touching};
+use super::forces::{self, Part, Scene, Touching};
 use super::grains::{Grain, Grains, Point};
 use super::integrate::{self, Lengths, Mover, Rows};
-use super::lanes::{Backend, Row};
+use super::lanes::{Backend, Load, Row};
 use super::law::ContactLaw;
 use super::ledger::Ledger;
-use super::neighbours::Before;
-use super::stability;
+use super::neighbours::{self, Before, Surroundings};
 use super::tile::{Moved, Tile, cut};
 use crate::runtime::pool::{Parts, Pool};
 
@@ -47,6 +46,8 @@ pub struct Engine<C> {
     pub(super) settings: Settings,
     pub(super) grains: Grains,
     pub(super) tiles: Vec<Tile>,
+    /// what acts on the grains, the rows of one tile after those of the other; zero between two steps
+    pub(super) loads: Vec<Load>,
     /// positions when the list was made
     pub(super) reference: Vec<Row>,
     /// bound of the way of any grain since the list was made [m]
@@ -92,7 +93,7 @@ impl<C: ContactLaw> Engine<C> {
         }
         engine.look_for_madness(true)?;
         engine.rebuild();
-        engine.ledger.begin(engine.grains.kinetic_energy());
+        engine.begin_ledger();
         Ok(engine)
     }
 
@@ -107,6 +108,7 @@ impl<C: ContactLaw> Engine<C> {
             settings,
             grains,
             tiles: Vec::new(),
+            loads: Vec::new(),
             reference: Vec::new(),
             way: 0.0,
             step: 0,
@@ -166,6 +168,9 @@ impl<C: ContactLaw> Engine<C> {
             sane += moved.sane;
             self.ledger.add(moved);
         }
+        for tile in &self.tiles {
+            self.ledger.add_walls(tile.found.walls, lengths.kick);
+        }
         if sane != 0.0 {
             return self.look_for_madness(false);
         }
@@ -183,29 +188,42 @@ impl<C: ContactLaw> Engine<C> {
 
     /// Computes what acts on every grain.
     pub(super) fn forces(&mut self, dt: f64) {
-        let Self { law, domain, grains, tiles, backend, pool, bounds, scratch, .. } = self;
+        let Self { law, domain, grains, tiles, loads, backend, pool, bounds, scratch, .. } = self;
         let scene = Scene { law, domain, grains, dt };
-        let (tiles, scratch) = (Parts::new(tiles), Parts::new(scratch));
+        let (tiles, loads, scratch) = (Parts::new(tiles), Parts::new(loads), Parts::new(scratch));
         pool.each(bounds, |thread, t| {
-            // SAFETY: each tile and each thread is a part of its own.
+            // SAFETY: each tile with its rows, and each thread, is a part of its own.
             let (tile, scratch) = unsafe { (tiles.part(t..t + 1), scratch.part(thread..thread + 1)) };
-            forces::compute(*backend, scene, &mut tile[0], &mut scratch[0]);
+            let tile = &mut tile[0];
+            // SAFETY: as above.
+            let loads = unsafe { loads.part(tile.loads.clone()) };
+            forces::compute(*backend, scene, Part { tile, loads }, &mut scratch[0]);
         });
     }
 
     fn kick_and_drift<B: Body>(&mut self, body: &B, lengths: Lengths) {
-        let Self { grains, tiles, moved, backend, pool, bounds, settings, .. } = self;
-        let mover = Mover { tiles: tiles.as_slice(), gravity: settings.gravity, body, step: lengths };
+        let Self { grains, tiles, loads, moved, backend, pool, bounds, settings, .. } = self;
+        let mover = Mover { gravity: settings.gravity, body, step: lengths };
+        let (count, tiles, loads) = (grains.len(), tiles.as_slice(), Parts::new(loads));
         let results = Parts::new(moved);
         let positions = Parts::new(&mut grains.positions);
         let velocities = Parts::new(&mut grains.velocities);
         let spins = Parts::new(&mut grains.spins);
         let ids = &grains.ids;
         pool.each(bounds, |_, t| {
-            let range = mover.tiles[t].grains.clone();
-            // SAFETY: tiles are disjoint, and each is a part of its own.
+            let range = tiles[t].grains.clone();
+            let own = tiles[t].loads.start..tiles[t].loads.start + range.len();
+            // SAFETY: tiles are disjoint, and each is a part of its own; so are the rows of loads of its grains in all tiles.
             let (rows, result) = unsafe {
+                let own = loads.part(own);
+                for other in tiles {
+                    for (rows, grains) in other.rows_of(&range, count) {
+                        let (from, to) = (grains.start - range.start, grains.end - range.start);
+                        integrate::gather(*backend, &mut own[from..to], loads.part(rows));
+                    }
+                }
                 let rows = Rows {
+                    loads: own,
                     positions: positions.part(range.clone()),
                     velocities: velocities.part(range.clone()),
                     spins: spins.part(range.clone()),
@@ -213,7 +231,7 @@ impl<C: ContactLaw> Engine<C> {
                 };
                 (rows, results.part(t..t + 1))
             };
-            result[0] = integrate::advance(*backend, mover, t, rows);
+            result[0] = integrate::advance(*backend, mover, rows);
         });
     }
 
@@ -240,7 +258,7 @@ impl<C: ContactLaw> Engine<C> {
         for (tile, range) in self.tiles.iter_mut().zip(ranges) {
             tile.grains = range;
         }
-        let Self { grains, cells, domain, former, order, settings, tiles, pool, .. } = self;
+        let Self { grains, cells, domain, former, order, settings, tiles, pool, backend, .. } = self;
         let before = Before { tiles: former, order };
         let count = tiles.len();
         let even: Vec<usize> = (0..=pool.threads()).map(|k| k * count / pool.threads()).collect();
@@ -248,15 +266,28 @@ impl<C: ContactLaw> Engine<C> {
         pool.each(&even, |_, t| {
             // SAFETY: each tile is a part of its own.
             let tile = &mut unsafe { parts.part(t..t + 1) }[0];
-            tile.list(grains, cells, domain, settings.skin, before);
+            let scene = Surroundings { grains, cells, domain, skin: settings.skin, before };
+            neighbours::list(*backend, tile, scene);
             let sound = tile.is_sound(grains.len());
             debug_assert!(sound, "a list that was just made is sound");
         });
+        self.lay_out();
+    }
+
+    /// Gives each tile its rows of loads, and each thread tiles.
+    pub(super) fn lay_out(&mut self) {
+        let mut end = 0;
+        for tile in &mut self.tiles {
+            tile.loads = end..end + tile.reach;
+            end += tile.reach;
+        }
+        self.loads.clear();
+        self.loads.resize(end, Load::default());
         self.share();
     }
 
     /// Gives each thread tiles with about as much work.
-    pub(super) fn share(&mut self) {
+    fn share(&mut self) {
         let work: Vec<usize> = self
             .tiles
             .iter()
@@ -278,58 +309,6 @@ impl<C: ContactLaw> Engine<C> {
         self.bounds.push(work.len());
     }
 
-    /// The first grain whose state is no number, or that has left.
-    fn look_for_madness(&self, and_lost: bool) -> Result<(), GrainError> {
-        for i in 0..self.grains.len() {
-            let rows = [self.grains.positions[i], self.grains.velocities[i], self.grains.spins[i]];
-            if rows.iter().any(|row| row.0.iter().any(|x| !x.is_finite())) {
-                return Err(GrainError::NotFinite { place: self.place(i) });
-            }
-            if and_lost && self.grains.position(i)[2] < self.settings.lowest {
-                return Err(GrainError::Lost { place: self.place(i), lowest: self.settings.lowest });
-            }
-        }
-        Ok(())
-    }
-
-    fn overlap_error(&self) -> GrainError {
-        let limit = self.settings.largest_overlap;
-        if let Err(error) = self.look_for_madness(false) {
-            return error;
-        }
-        let deepest = self.contacts().max_by(|a, b| a.ratio.total_cmp(&b.ratio));
-        match deepest {
-            Some(contact) => GrainError::Overlap {
-                place: self.place(contact.first),
-                other: contact.second.map(|j| self.grains.ids[j]),
-                ratio: contact.ratio,
-                limit,
-            },
-            None => GrainError::NotFinite { place: self.place(0) },
-        }
-    }
-
-    /// Refuses a time step beyond what the present contacts bear.
-    ///
-    /// # Errors
-    /// [`GrainError::StepTooLong`] with the grain that sets the limit.
-    pub fn check_step(&self) -> Result<(), GrainError> {
-        let limit = stability::limit(self);
-        if self.settings.dt <= limit.step {
-            return Ok(());
-        }
-        Err(GrainError::StepTooLong {
-            place: self.place(limit.grain),
-            step_s: self.settings.dt,
-            limit_s: limit.step,
-            contacts: limit.contacts,
-        })
-    }
-
-    pub(super) fn place(&self, i: usize) -> super::error::Place {
-        super::error::Place { grain: self.grains.ids[i], step: self.step, position: self.grains.position(i) }
-    }
-
     /// Goes on with another step or gravity; the skin stays.
     pub fn change(&mut self, dt: f64, gravity: Point) {
         self.settings.dt = dt;
@@ -337,9 +316,9 @@ impl<C: ContactLaw> Engine<C> {
         self.settings.gravity = gravity;
     }
 
-    /// The account of energies begins again now.
+    /// The account of energies and momentum begins again now.
     pub fn begin_ledger(&mut self) {
-        self.ledger.begin(self.grains.kinetic_energy());
+        self.ledger.begin(self.grains.kinetic_energy(), self.grains.momentum());
     }
 
     /// The grains, in the order of the list.

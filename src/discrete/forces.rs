@@ -46,8 +46,17 @@ pub struct Scene<'a, C> {
     pub dt: f64,
 }
 
+/// A tile and its rows of loads.
+#[derive(Debug)]
+pub struct Part<'a> {
+    /// the tile
+    pub tile: &'a mut Tile,
+    /// its rows: what the last kick left at zero
+    pub loads: &'a mut [Load],
+}
+
 /// Computes what acts on the grains of `tile` and behind it.
-pub fn compute<C: ContactLaw>(backend: Backend, scene: Scene<'_, C>, tile: &mut Tile, scratch: &mut Touching) {
+pub fn compute<C: ContactLaw>(backend: Backend, scene: Scene<'_, C>, tile: Part<'_>, scratch: &mut Touching) {
     match backend {
         Backend::Scalar => tile_forces::<C, One>((), scene, tile, scratch),
         #[cfg(target_arch = "x86_64")]
@@ -61,7 +70,7 @@ pub fn compute<C: ContactLaw>(backend: Backend, scene: Scene<'_, C>, tile: &mut 
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn on_avx2<C: ContactLaw>(proof: <Four as Lanes>::Proof, scene: Scene<'_, C>, tile: &mut Tile, scratch: &mut Touching) {
+fn on_avx2<C: ContactLaw>(proof: <Four as Lanes>::Proof, scene: Scene<'_, C>, tile: Part<'_>, scratch: &mut Touching) {
     tile_forces::<C, Four>(proof, scene, tile, scratch);
 }
 
@@ -70,7 +79,7 @@ fn on_avx2<C: ContactLaw>(proof: <Four as Lanes>::Proof, scene: Scene<'_, C>, ti
 fn on_avx512<C: ContactLaw>(
     proof: <Eight as Lanes>::Proof,
     scene: Scene<'_, C>,
-    tile: &mut Tile,
+    tile: Part<'_>,
     scratch: &mut Touching,
 ) {
     tile_forces::<C, Eight>(proof, scene, tile, scratch);
@@ -80,22 +89,22 @@ fn on_avx512<C: ContactLaw>(
 fn tile_forces<C: ContactLaw, L: Lanes>(
     proof: L::Proof,
     scene: Scene<'_, C>,
-    tile: &mut Tile,
+    Part { tile, loads }: Part<'_>,
     touching: &mut Touching,
 ) {
     let Scene { law, domain, grains, dt } = scene;
     tile.check(grains);
-    tile.loads.fill(Load::default());
+    assert!(loads.len() == tile.reach, "every grain that the tile touches has a row of loads");
     tile.found = Found::default();
     let mut from = 0;
     while from < tile.pairs.len() {
         let to = (from + BLOCK).min(tile.pairs.len());
         let count = find::<L>(proof, domain, grains, tile, from, to, touching);
-        apply::<C, L>(proof, law, grains, tile, count, touching, dt);
+        apply::<C, L>(proof, law, grains, Part { tile, loads }, count, touching, dt);
         tile.found.contacts += count;
         from = to;
     }
-    walls::compute::<C, L>(proof, scene, tile);
+    walls::compute::<C, L>(proof, scene, tile, loads);
 }
 
 /// Finds the pairs of the slots `from..to` that touch; springs of new contacts begin at zero.
@@ -161,7 +170,7 @@ fn apply<C: ContactLaw, L: Lanes>(
     proof: L::Proof,
     law: &C,
     grains: &Grains,
-    tile: &mut Tile,
+    Part { tile, loads }: Part<'_>,
     count: usize,
     touching: &mut Touching,
     dt: f64,
@@ -180,7 +189,7 @@ fn apply<C: ContactLaw, L: Lanes>(
     }
     let mut deepest = L::splat(proof, 0.0);
     let one = L::splat(proof, 1.0);
-    let first = tile.grains.start as u32;
+    let window = tile.window(grains.len());
     let mut at = 0;
     while at < count {
         let vector = |from: &[f64; BLOCK + GROUP]| L::load(proof, &from[at..]);
@@ -211,10 +220,10 @@ fn apply<C: ContactLaw, L: Lanes>(
             let used = (count - at).min(L::WIDTH);
             if used == L::WIDTH {
                 L::put(response.spring, &mut tile.springs, slots, L::WIDTH);
-                L::act(force, spin, &mut tile.loads, first, pairs, L::WIDTH);
+                L::act(force, spin, loads, window, pairs, L::WIDTH);
             } else {
                 L::put(response.spring, &mut tile.springs, slots, used);
-                L::act(force, spin, &mut tile.loads, first, pairs, used);
+                L::act(force, spin, loads, window, pairs, used);
             }
         }
         at += L::WIDTH;

@@ -41,7 +41,7 @@ impl Grain {
 /// Rows behind the grains: the two of a pair that never touches, and the one that touches no wall.
 pub const PADDING: usize = 3;
 
-/// All grains, one row of each kind a grain, sorted with z slowest at each rebuild of the list.
+/// All grains, one row of each kind a grain, sorted by cell at each rebuild of the list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grains {
     /// x, y, z, radius [m]

@@ -58,6 +58,14 @@ pub fn law(contact: &crate::closures::contact::LinearSpring) -> Result<LinearSpr
 /// # Errors
 /// [`SolveError`] if the grains cannot go on, or never part.
 pub fn follow(impact: &Impact) -> Result<Found, SolveError> {
+    follow_from(impact, 0.1)
+}
+
+/// Follows one impact that begins `touch` steps after the start, a share of one.
+///
+/// # Errors
+/// As [`follow`].
+pub fn follow_from(impact: &Impact, touch: f64) -> Result<Found, SolveError> {
     let law = law(&impact.contact)?;
     let r = 0.5 * impact.d;
     let (sin, cos) = impact.angle.sin_cos();
@@ -73,8 +81,7 @@ pub fn follow(impact: &Impact) -> Result<Found, SolveError> {
     mover.spin = [0.0, impact.spin, 0.0];
     let mut domain = Domain::default();
     let mut grains = Vec::new();
-    // A tenth of a step before they touch: the contact begins inside a step.
-    let gap = 0.1 * v * dt;
+    let gap = touch * v * dt;
     if impact.target == Target::Wall {
         domain.walls.push(Wall::through([0.0; 3], [0.0, 0.0, 1.0]));
         mover.position = [0.0, 0.0, r + gap];

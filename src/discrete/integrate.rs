@@ -9,7 +9,7 @@ use super::grains::Point;
 #[cfg(target_arch = "x86_64")]
 use super::lanes::avx2::Four;
 use super::lanes::{Backend, Load, Quad, Row};
-use super::tile::{Moved, Tile};
+use super::tile::Moved;
 
 /// Lengths of one step [s].
 #[derive(Clone, Copy, Debug)]
@@ -31,13 +31,42 @@ pub struct Rows<'a> {
     pub spins: &'a mut [Row],
     /// names
     pub ids: &'a [u32],
+    /// what acts on them, by the contacts of this tile and of others; zero afterwards
+    pub loads: &'a mut [Load],
+}
+
+/// Adds what another tile did to some grains, and leaves zeros there.
+pub fn gather(backend: Backend, loads: &mut [Load], others: &mut [Load]) {
+    match backend {
+        Backend::Scalar => gathered::<Row>((), loads, others),
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: the proof says that the machine has the instructions.
+        Backend::Avx2(proof) => unsafe { gather_on_avx2(proof, loads, others) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Backend::Avx512(proof) => unsafe { gather_on_avx2(proof.narrower(), loads, others) },
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn gather_on_avx2(proof: <Four as Quad>::Proof, loads: &mut [Load], others: &mut [Load]) {
+    gathered::<Four>(proof, loads, others);
+}
+
+#[inline(always)]
+fn gathered<Q: Quad>(proof: Q::Proof, loads: &mut [Load], others: &mut [Load]) {
+    for (Load(sums), Load(more)) in loads.iter_mut().zip(others) {
+        for (sum, more) in sums.iter_mut().zip(more) {
+            *sum = Q::of(proof, sum).plus(Q::of(proof, more)).row();
+            *more = Row::default();
+        }
+    }
 }
 
 /// What moves the grains of one tile.
 #[derive(Debug)]
 pub struct Mover<'a, B> {
-    /// all tiles
-    pub tiles: &'a [Tile],
     /// gravity [m/s2]
     pub gravity: Point,
     /// what acts on each grain besides
@@ -53,60 +82,46 @@ impl<B> Clone for Mover<'_, B> {
 }
 impl<B> Copy for Mover<'_, B> {}
 
-/// Moves the grains of tile `t` by one step.
-pub fn advance<B: Body>(backend: Backend, mover: Mover<'_, B>, t: usize, rows: Rows<'_>) -> Moved {
+/// Moves the grains of one tile by one step.
+pub fn advance<B: Body>(backend: Backend, mover: Mover<'_, B>, rows: Rows<'_>) -> Moved {
     match backend {
-        Backend::Scalar => moved::<B, Row>((), mover, t, rows),
+        Backend::Scalar => moved::<B, Row>((), mover, rows),
         #[cfg(target_arch = "x86_64")]
         // SAFETY: the proof says that the machine has the instructions.
-        Backend::Avx2(proof) => unsafe { on_avx2(proof, mover, t, rows) },
+        Backend::Avx2(proof) => unsafe { on_avx2(proof, mover, rows) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Backend::Avx512(proof) => unsafe { on_avx2(proof.narrower(), mover, t, rows) },
+        Backend::Avx512(proof) => unsafe { on_avx2(proof.narrower(), mover, rows) },
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn on_avx2<B: Body>(proof: <Four as Quad>::Proof, mover: Mover<'_, B>, t: usize, rows: Rows<'_>) -> Moved {
-    moved::<B, Four>(proof, mover, t, rows)
+fn on_avx2<B: Body>(proof: <Four as Quad>::Proof, mover: Mover<'_, B>, rows: Rows<'_>) -> Moved {
+    moved::<B, Four>(proof, mover, rows)
 }
 
 #[inline(always)]
-fn moved<B: Body, Q: Quad>(proof: Q::Proof, mover: Mover<'_, B>, t: usize, rows: Rows<'_>) -> Moved {
-    let Mover { tiles, gravity: [gx, gy, gz], body, step } = mover;
-    let tile = &tiles[t];
-    let start = tile.grains.start;
-    // What earlier tiles did to these grains, added in the order of the tiles.
-    let spilled = |other: &'_ Tile| other.grains.start + other.loads.len() > start;
-    let from = tiles[..t].iter().position(spilled).unwrap_or(t);
-    let earlier = &tiles[from..t];
-    let Rows { positions, velocities, spins, ids } = rows;
+fn moved<B: Body, Q: Quad>(proof: Q::Proof, mover: Mover<'_, B>, rows: Rows<'_>) -> Moved {
+    let Mover { gravity: [gx, gy, gz], body, step } = mover;
+    let Rows { positions, velocities, spins, ids, loads } = rows;
     let zero = Q::of(proof, &Row::default());
     let gravity = Q::of(proof, &Row([gx, gy, gz, 0.0]));
     let (mut contact, mut weight, mut driven, mut given, mut sane, mut fastest) = (zero, zero, zero, zero, zero, zero);
-    let loads = &tile.loads[..positions.len()];
-    for (local, ((x, v), w)) in positions.iter_mut().zip(velocities).zip(spins).enumerate() {
-        let [mut force, mut turn] = [Q::of(proof, &loads[local].0[0]), Q::of(proof, &loads[local].0[1])];
-        for other in earlier {
-            if let Some(Load([more, twist])) = other.loads.get(start + local - other.grains.start) {
-                force = force.plus(Q::of(proof, more));
-                turn = turn.plus(Q::of(proof, twist));
-            }
-        }
+    let mut on_fixed = zero;
+    for ((((x, v), w), load), &id) in positions.iter_mut().zip(velocities).zip(spins).zip(loads).zip(ids) {
+        let [force, turn] = [Q::of(proof, &load.0[0]), Q::of(proof, &load.0[1])];
+        // Cleared while it is at hand.
+        *load = Load::default();
         let (inverse, mass) = (w.0[3], v.0[3]);
         let (place, velocity, spin) = (Q::of(proof, x), Q::of(proof, v), Q::of(proof, w));
         let old = velocity.with_last(zero);
         if inverse == 0.0 {
+            on_fixed = on_fixed.plus(force);
             *x = place.plus(old.times(step.drift)).row();
             continue;
         }
-        let seen = Seen {
-            id: ids[local],
-            position: [x.0[0], x.0[1], x.0[2]],
-            velocity: [v.0[0], v.0[1], v.0[2]],
-            radius: x.0[3],
-        };
+        let seen = Seen { id, position: [x.0[0], x.0[1], x.0[2]], velocity: [v.0[0], v.0[1], v.0[2]], radius: x.0[3] };
         let [bx, by, bz] = body.force(&seen);
         let (outer, falling) = (Q::of(proof, &Row([bx, by, bz, 0.0])), gravity.times(mass));
         let both = falling.plus(outer);
@@ -129,13 +144,17 @@ fn moved<B: Body, Q: Quad>(proof: Q::Proof, mover: Mover<'_, B>, t: usize, rows:
         let [a, b, c, _] = sum.row().0;
         a + b + c
     };
-    let [px, py, pz, _] = given.times(step.kick).row().0;
+    let impulse = |force: Q| {
+        let [x, y, z, _] = force.times(step.kick).row().0;
+        [x, y, z]
+    };
     Moved {
         fastest: total(fastest),
         sane: total(sane),
         contact_work: step.kick * total(contact),
         gravity_work: step.kick * total(weight),
         body_work: step.kick * total(driven),
-        impulse: [px, py, pz],
+        impulse: impulse(given),
+        on_fixed: impulse(on_fixed),
     }
 }

@@ -95,8 +95,11 @@ fn equal_pair(masses: Option<[f64; 2]>) -> Option<f64> {
     masses.and_then(|[least, largest]| (least == largest).then_some(least))
 }
 
-/// Moments of touch within a step over which the restitution of a step is the mean.
-const PHASES: usize = 16;
+/// Moments of touch within a step over which the restitution of a step is the mean: in a contact of few steps one step more or
+/// less is a jump, and it takes many moments to smooth it.
+fn phases(x: f64) -> usize {
+    (256.0 * x).clamp(16.0, 512.0) as usize
+}
 /// Steps over the period of a contact so short that the closed form serves.
 const SHORT: f64 = 1e-3;
 
@@ -139,9 +142,9 @@ impl LinearSpring {
             ..*self
         };
         let zero = [One(0.0); 3];
-        let mut sum = 0.0;
-        for phase in 0..PHASES {
-            let (mut overlap, mut parting) = ((phase as f64 + 0.5) / PHASES as f64 * x, -1.0);
+        let (mut sum, phases) = (0.0, phases(x));
+        for phase in 0..phases {
+            let (mut overlap, mut parting) = ((phase as f64 + 0.5) / phases as f64 * x, -1.0);
             // An impact lasts at most a few periods; what lasts longer returns next to nothing.
             for _ in 0..(40.0 / x) as usize {
                 let normal = [One(1.0), One(0.0), One(0.0)];
@@ -161,7 +164,7 @@ impl LinearSpring {
             }
             sum += parting;
         }
-        sum / PHASES as f64
+        sum / phases as f64
     }
 
     /// Damping over that of the closed form for the step `x`; 1 where it makes no difference or none meets e_n.

@@ -1,9 +1,13 @@
 //! The list of neighbours of one tile, and the springs that it takes over from the list before.
+#![allow(unsafe_code, reason = "instructions chosen at run time, and pairs written a vector at a time")]
 
 use super::cells::Cells;
 use super::domain::Domain;
 use super::grains::Grains;
-use super::lanes::{Load, Pair, Row};
+use super::lanes::scalar::One;
+use super::lanes::{Backend, Lanes, Pair, Row};
+#[cfg(target_arch = "x86_64")]
+use super::lanes::{avx2::Four, avx512::Eight};
 use super::tile::{GROUP, Tile, WallList};
 
 /// What a new list is made from.
@@ -24,10 +28,18 @@ impl Before<'_> {
     /// The spring of the pair of the new places `i` and `j`, if they touched.
     fn spring(&self, i: usize, j: usize) -> Option<Row> {
         let (a, b) = (self.order[i] as usize, self.order[j] as usize);
-        let tile = self.tile(a.min(b))?;
-        let slot = tile.slot(a.min(b), a.max(b)).filter(|&slot| tile.touches(slot))?;
-        let Row([x, y, z, _]) = tile.springs[slot];
-        Some(if a < b { Row([x, y, z, 0.0]) } else { Row([-x, -y, -z, 0.0]) })
+        let listed = |a: usize, b: usize| {
+            let tile = self.tile(a)?;
+            tile.slot(a, b).map(|slot| tile.touches(slot).then(|| tile.springs[slot]))
+        };
+        // Mostly the first of a pair comes first; around a period it comes last.
+        let [low, high] = [a.min(b), a.max(b)];
+        let (first, found) = match listed(low, high) {
+            Some(found) => (low, found),
+            None => (high, listed(high, low)?),
+        };
+        let Row([x, y, z, _]) = found?;
+        Some(if a == first { Row([x, y, z, 0.0]) } else { Row([-x, -y, -z, 0.0]) })
     }
 
     fn wall_spring(&self, wall: usize, grain: usize) -> Option<Row> {
@@ -39,43 +51,113 @@ impl Before<'_> {
     }
 }
 
+/// What a list is made of.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings<'a> {
+    /// the grains, sorted
+    pub grains: &'a Grains,
+    /// their cells
+    pub cells: &'a Cells,
+    /// periods and walls
+    pub domain: &'a Domain,
+    /// how much farther apart than touching grains may be to be listed [m]
+    pub skin: f64,
+    /// the list before
+    pub before: Before<'a>,
+}
+
+/// Lists the pairs of `tile` that are nearer than the sum of their radii and the skin, and the walls likewise.
+pub fn list(backend: Backend, tile: &mut Tile, of: Surroundings<'_>) {
+    match backend {
+        Backend::Scalar => tile.list::<One>((), of),
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: the proof says that the machine has the instructions.
+        Backend::Avx2(proof) => unsafe { on_avx2(proof, tile, of) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Backend::Avx512(proof) => unsafe { on_avx512(proof, tile, of) },
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn on_avx2(proof: <Four as Lanes>::Proof, tile: &mut Tile, of: Surroundings<'_>) {
+    tile.list::<Four>(proof, of);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512dq,avx512vl")]
+fn on_avx512(proof: <Eight as Lanes>::Proof, tile: &mut Tile, of: Surroundings<'_>) {
+    tile.list::<Eight>(proof, of);
+}
+
 impl Tile {
-    /// Lists the pairs that are nearer than the sum of their radii and `skin` [m], and the walls likewise.
-    pub fn list(&mut self, grains: &Grains, cells: &Cells, domain: &Domain, skin: f64, before: Before<'_>) {
+    #[inline(always)]
+    fn list<L: Lanes>(&mut self, proof: L::Proof, of: Surroundings<'_>) {
+        let Surroundings { grains, cells, domain, skin, before } = of;
         self.pairs.clear();
         self.springs.clear();
         self.touching.clear();
         self.starts.clear();
-        let mut last = self.grains.end;
-        let (lengths, halves) = (domain.lengths(), domain.halves());
+        let count = grains.len();
+        let window = self.window(count);
+        let mut last = self.grains.len();
+        let all = |x| L::splat(proof, x);
+        let [length_x, length_y] = domain.lengths().map(all);
+        let [half_x, half_y] = domain.halves().map(all);
+        let zero = all(0.0);
         for i in self.grains.clone() {
-            self.starts.push(self.pairs.len() as u32);
+            let first = self.pairs.len();
+            self.starts.push(first as u32);
             let Row([xi, yi, zi, ri]) = grains.positions[i];
-            let fixed = grains.is_fixed(i);
+            let ([xi, yi, zi], reach) = ([xi, yi, zi].map(all), all(ri + skin));
             let pairs = &mut self.pairs;
-            cells.ahead(i, |range| {
-                for j in range {
-                    let Row([xj, yj, zj, rj]) = grains.positions[j];
-                    let mut d = [xj - xi, yj - yi];
-                    for k in 0..2 {
-                        if d[k] > halves[k] {
-                            d[k] -= lengths[k];
-                        } else if -halves[k] > d[k] {
-                            d[k] += lengths[k];
-                        }
+            let (ranges, several) = cells.ahead(i);
+            for &[begin, end] in &ranges[..several] {
+                assert!(end <= count, "cells hold grains");
+                pairs.reserve(end - begin + L::WIDTH);
+                let mut listed = pairs.len();
+                let mut from = begin;
+                while from < end {
+                    // Behind the end of the range stands its last grain again, which is not counted.
+                    let at: [u64; GROUP] = std::array::from_fn(|l| (from + l).min(end - 1) as u64);
+                    let words = at.map(|j| i as u64 | j << 32);
+                    // SAFETY: the grains of the range are there, and so is room for a vector of pairs, which are words of
+                    // this layout; `listed` counts those that were written.
+                    unsafe {
+                        let [x, y, z, r] = L::columns(proof, &grains.positions, at.as_ptr());
+                        let [mut x, mut y, z] = [x - xi, y - yi, z - zi];
+                        x = x - L::select(x.above(half_x), length_x, zero)
+                            + L::select((-half_x).above(x), length_x, zero);
+                        y = y - L::select(y.above(half_y), length_y, zero)
+                            + L::select((-half_y).above(y), length_y, zero);
+                        let reach = reach + r;
+                        let near = (reach * reach).above(x * x + y * y + z * z);
+                        L::pack_words(proof, near, words.as_ptr(), pairs.as_mut_ptr().add(listed).cast());
+                        let real = u32::MAX >> (32 - (end - from).min(L::WIDTH));
+                        listed += (L::bits(near) & real).count_ones() as usize;
+                        pairs.set_len(listed);
                     }
-                    let reach = ri + rj + skin;
-                    let near = d[0] * d[0] + d[1] * d[1] + (zj - zi) * (zj - zi) < reach * reach;
-                    if near && !(fixed && grains.is_fixed(j)) {
-                        pairs.push(Pair { i: i as u32, j: j as u32 });
-                        last = last.max(j + 1);
+                    from += L::WIDTH;
+                }
+            }
+            if grains.is_fixed(i) {
+                let mut kept = first;
+                for at in first..pairs.len() {
+                    if !grains.is_fixed(pairs[at].j as usize) {
+                        pairs[kept] = pairs[at];
+                        kept += 1;
                     }
                 }
-            });
+                pairs.truncate(kept);
+            }
+            let farthest = pairs[first..].iter().map(|pair| window.place(pair.j) + 1);
+            last = farthest.fold(last, usize::max);
         }
+        self.reach = last;
         self.starts.push(self.pairs.len() as u32);
         let listed = self.pairs.len();
-        let never = Pair { i: grains.len() as u32, j: grains.len() as u32 + 1 };
+        let never = Pair { i: count as u32, j: count as u32 + 1 };
         self.pairs.resize(listed.next_multiple_of(GROUP), never);
         self.springs.resize(self.pairs.len(), Row::default());
         self.touching.resize(self.pairs.len() / GROUP, 0);
@@ -88,8 +170,6 @@ impl Tile {
                 }
             }
         }
-        self.loads.clear();
-        self.loads.resize(last - self.grains.start, Load::default());
         self.list_walls(grains, domain, skin, before);
     }
 
@@ -128,20 +208,19 @@ impl Tile {
         self.checked = None;
         let listed = self.listed();
         let groups = self.pairs.len() / GROUP;
-        let (first, end) = (self.grains.start, self.grains.start + self.loads.len());
+        let window = self.window(grains);
         let inside = |pair: &Pair| {
             let (i, j) = (pair.i as usize, pair.j as usize);
-            self.grains.contains(&i) && i < j && j < end
+            self.grains.contains(&i) && i != j && j < grains && window.place(pair.j) < self.reach
         };
         let padding = |pair: &Pair| pair.i as usize == grains && pair.j as usize == grains + 1;
         let starts = self.starts.len() == self.grains.len() + 1 && self.starts.is_sorted();
-        let lists = self.pairs.len() % GROUP == 0
+        let lists = self.pairs.len().is_multiple_of(GROUP)
             && self.springs.len() == self.pairs.len()
             && self.touching.len() == groups
             && listed <= self.pairs.len()
-            && first <= self.grains.end
-            && self.grains.end <= end
-            && end <= grains;
+            && self.grains.end <= grains
+            && (self.grains.len()..=grains).contains(&self.reach);
         let walls = &self.walls;
         let ends = walls.ranges.iter().all(|r| {
             r.start % GROUP == 0

@@ -167,6 +167,9 @@ pub fn outcome(
         }
         None => results.undefined(&q::BED_LEVEL, "nothing was averaged yet"),
     }
+    if let Some((level, _)) = level {
+        bulk(bed, &averaged, level, &mut results);
+    }
     let dt = engine.settings().dt;
     results.set(&q::TIME_STEP, dt);
     let limit = stability::limit(engine).step;
@@ -196,11 +199,19 @@ pub fn outcome(
     }
     let kinetic = engine.grains().kinetic_energy();
     let (defect, scale) = (engine.ledger().defect(kinetic), engine.ledger().scale(kinetic));
-    let balances = vec![Balance {
-        name: "energy".into(),
-        relative: if scale > 0.0 { defect / scale } else { 0.0 },
-        how: "kinetic energy against the work of contacts and gravity, relative to the largest of them".into(),
-    }];
+    let balances = vec![
+        Balance {
+            name: "energy".into(),
+            relative: if scale > 0.0 { defect / scale } else { 0.0 },
+            how: "kinetic energy against the work of contacts and gravity, relative to the largest of them".into(),
+        },
+        Balance {
+            name: "momentum".into(),
+            relative: engine.ledger().momentum_defect(engine.grains().momentum()),
+            how: "momentum of the grains against the impulses of gravity, bottom and walls, relative to the largest of them"
+                .into(),
+        },
+    ];
     Ok(Outcome { results, balances, validity, profile, series, ..nothing(status) })
 }
 
@@ -216,6 +227,41 @@ pub(super) fn bed_level(averaged: &Averaged) -> Option<(f64, f64)> {
     let bulk = bulk_up_to(highest);
     let top = (0..slices).rev().find(|&s| phi(s) > 0.5 * bulk)?;
     Some((averaged.z[top], bulk))
+}
+
+/// What the middle of the bed tells: pressure against the weight above it, friction and inertial number.
+fn bulk(bed: &GrainBed, averaged: &Averaged, level: f64, results: &mut Results) {
+    let of = |means: &[Mean], s: usize| means[s].map_or(0.0, |(x, _)| x);
+    let slices = averaged.z.len();
+    let thickness = bed.discrete.slice * bed.d;
+    let inside: Vec<usize> = (0..slices).filter(|&s| (0.25..0.75).contains(&(averaged.z[s] / level))).collect();
+    let (Some(&low), Some(&high)) = (inside.first(), inside.last()) else { return };
+    let mut above = vec![0.0; slices];
+    for s in (0..slices - 1).rev() {
+        let half = |s: usize| 0.5 * thickness * of(&averaged.phi, s);
+        above[s] = above[s + 1] + bed.rho_p * bed.g * bed.beta.cos() * (half(s) + half(s + 1));
+    }
+    // The weight of a sphere is spread over its height, its contact forces are not: means over a diameter.
+    let window = ((0.5 / bed.discrete.slice).round() as usize).max(1);
+    let smooth = |s: usize, of: &dyn Fn(usize) -> f64| {
+        let range = s.saturating_sub(window)..(s + window).min(slices);
+        let count = range.len() as f64;
+        range.map(of).sum::<f64>() / count
+    };
+    let off = |&s: &usize| smooth(s, &|s| of(&averaged.pressure, s) - above[s]).abs();
+    results.set(
+        &q::PRESSURE_ERROR,
+        inside.iter().map(off).fold(0.0, f64::max) / above[low.min(window)].max(f64::MIN_POSITIVE),
+    );
+    let mean = |means: &[Mean]| inside.iter().map(|&s| of(means, s)).sum::<f64>() / inside.len() as f64;
+    let (pressure, shear) = (mean(&averaged.pressure), mean(&averaged.shear));
+    if bed.beta == 0.0 || pressure <= 0.0 {
+        results.undefined(&q::FRICTION_BULK, "the bed is level");
+        return;
+    }
+    results.set(&q::FRICTION_BULK, shear / pressure);
+    let rate = (of(&averaged.velocity, high) - of(&averaged.velocity, low)) / (averaged.z[high] - averaged.z[low]);
+    results.set(&q::INERTIAL_NUMBER_BULK, bed.d * rate * (bed.rho_p / pressure).sqrt());
 }
 
 pub(super) fn profile(bed: &GrainBed, averaged: &Averaged) -> Result<Option<Profile>, SolveError> {

@@ -19,8 +19,10 @@ pub fn domain(bed: &GrainBed) -> Domain {
         domain.walls.push(Wall::through([0.0; 3], [0.0, 0.0, 1.0]));
     }
     if bed.side_walls {
-        domain.walls.push(Wall::through([0.0; 3], [0.0, 1.0, 0.0]));
-        domain.walls.push(Wall::through([0.0, width, 0.0], [0.0, -1.0, 0.0]));
+        for (y, inward) in [(0.0, 1.0), (width, -1.0)] {
+            let wall = Wall::through([0.0, y, 0.0], [0.0, inward, 0.0]);
+            domain.walls.push(Wall { rough: !bed.smooth_walls, ..wall });
+        }
     }
     domain
 }

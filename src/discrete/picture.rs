@@ -45,7 +45,10 @@ pub fn side_view(grains: &Grains) -> String {
     let nearest = (0..grains.len()).map(|i| grains.position(i)[1]).fold(f64::INFINITY, f64::min);
     let depth = nearest + 4.0 * grains.largest_radius();
     let mut text = String::from("x_m,z_m,radius_m,u_particle_m_s\n");
-    for i in grains.places() {
+    // The nearest last: it hides what is behind it.
+    let mut places = grains.places();
+    places.sort_by(|&a, &b| grains.position(b)[1].total_cmp(&grains.position(a)[1]));
+    for i in places {
         let ([x, y, z], [u, _, _]) = (grains.position(i), grains.velocity(i));
         if y <= depth {
             let _ = writeln!(text, "{x:e},{z:e},{:e},{u:e}", grains.radius(i));

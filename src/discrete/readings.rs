@@ -12,6 +12,9 @@ impl<C: ContactLaw> Engine<C> {
         for tile in &self.tiles {
             sum.contacts += tile.found.contacts;
             sum.wall_contacts += tile.found.wall_contacts;
+            for (sum, force) in sum.walls.iter_mut().zip(tile.found.walls) {
+                *sum += force;
+            }
             sum.overlap = sum.overlap.max(tile.found.overlap);
         }
         sum
@@ -26,9 +29,11 @@ impl<C: ContactLaw> Engine<C> {
                 + 32 * (tile.springs.capacity() + tile.walls.springs.capacity())
                 + tile.touching.capacity()
                 + 4 * tile.starts.capacity()
-                + 64 * tile.loads.capacity()
                 + 8 * tile.walls.grains.capacity()
         };
-        32 * rows + 12 * self.grains.len() + self.tiles.iter().chain(&self.former).map(tile).sum::<usize>()
+        32 * rows
+            + 64 * self.loads.capacity()
+            + 12 * self.grains.len()
+            + self.tiles.iter().chain(&self.former).map(tile).sum::<usize>()
     }
 }

@@ -1,11 +1,12 @@
-//! A tile: consecutive grains, the contacts of which they are the first, and what acts on the grains of those contacts.
+//! A tile: consecutive grains, and the contacts of which they are the first. What acts on the grains of those contacts is
+//! summed in rows of the tile's own: of its grains, and of those behind them that they touch.
 //!
 //! The cut into tiles depends on the number of grains only, and sums over tiles are made in their order: no result
 //! depends on the number of threads.
 
 use std::ops::Range;
 
-use super::lanes::{Load, Pair, Row};
+use super::lanes::{Pair, Row, Window};
 
 /// Pairs that are looked at before the law is applied to those that touch.
 pub const BLOCK: usize = 256;
@@ -21,6 +22,8 @@ pub struct Found {
     pub wall_contacts: usize,
     /// largest overlap over the sum of the radii
     pub overlap: f64,
+    /// force of walls on grains [N]
+    pub walls: [f64; 3],
 }
 
 /// Sums over the grains of a tile after a step, for the mobile ones.
@@ -36,8 +39,10 @@ pub struct Moved {
     pub gravity_work: f64,
     /// work of the body force [J]
     pub body_work: f64,
-    /// impulse of gravity, body force and walls on the mobile grains [N s]; the rest is momentum exchanged among them
+    /// impulse of gravity and body force on the mobile grains [N s]
     pub impulse: [f64; 3],
+    /// impulse of mobile grains on the fixed ones [N s]
+    pub on_fixed: [f64; 3],
 }
 
 /// Contacts with walls: those of wall w are `range[w]`.
@@ -66,8 +71,10 @@ pub struct Tile {
     pub touching: Vec<u8>,
     /// contacts with walls
     pub walls: WallList,
-    /// what acts on its grains and on those behind them that they touch
-    pub loads: Vec<Load>,
+    /// number of its rows of loads: its grains, and those up to the last that they touch
+    pub reach: usize,
+    /// where these rows are
+    pub loads: Range<usize>,
     /// what it found in the last step
     pub found: Found,
     /// grains, pairs and wall entries when every index was last looked at
@@ -75,6 +82,22 @@ pub struct Tile {
 }
 
 impl Tile {
+    /// Its rows of loads of the grains `wanted`, which are another tile's, and those grains; `count` grains in all.
+    pub fn rows_of(&self, wanted: &Range<usize>, count: usize) -> impl Iterator<Item = (Range<usize>, Range<usize>)> {
+        let (start, row, own) = (self.grains.start, self.loads.start, self.grains.len());
+        let end = start + self.reach;
+        // Behind its own grains, and from the first grain on if it reaches beyond the last.
+        let behind = (start + own).max(wanted.start)..end.min(count).min(wanted.end);
+        let around = wanted.start..end.saturating_sub(count).min(wanted.end);
+        let placed = |grains: Range<usize>, shift: usize| {
+            let from = row + grains.start + shift - start;
+            (from..from + grains.len(), grains)
+        };
+        let (behind, around) =
+            ((!behind.is_empty()).then(|| placed(behind, 0)), (!around.is_empty()).then(|| placed(around, count)));
+        behind.into_iter().chain(around)
+    }
+
     /// Number of pairs without the padding.
     #[must_use]
     pub fn listed(&self) -> usize {
@@ -87,7 +110,14 @@ impl Tile {
         self.touching[slot / GROUP] >> (slot % GROUP) & 1 == 1
     }
 
-    /// The slot of the pair (`i`, `j`), i < j, if it is listed.
+    /// To which grains its rows of loads belong, of `grains` in all.
+    #[inline(always)]
+    #[must_use]
+    pub fn window(&self, grains: usize) -> Window {
+        Window { first: self.grains.start as u32, grains: grains as u32 }
+    }
+
+    /// The slot of the pair (`i`, `j`), i among its grains, if it is listed.
     #[must_use]
     pub fn slot(&self, i: usize, j: usize) -> Option<usize> {
         let local = i - self.grains.start;

@@ -2,13 +2,13 @@
 #![allow(unsafe_code, reason = "indices are checked once per tile, and instructions chosen at run time")]
 
 use super::forces::Scene;
-use super::lanes::{Lanes, cross, dot, minus, plus, scale};
+use super::lanes::{Lanes, Load, cross, dot, minus, plus, scale};
 use super::law::{Contact, ContactLaw};
 use super::tile::{GROUP, Tile};
 
 /// Adds what the walls do to the grains near them.
 #[inline(always)]
-pub fn compute<C: ContactLaw, L: Lanes>(proof: L::Proof, scene: Scene<'_, C>, tile: &mut Tile) {
+pub fn compute<C: ContactLaw, L: Lanes>(proof: L::Proof, scene: Scene<'_, C>, tile: &mut Tile, loads: &mut [Load]) {
     let Scene { law, domain, grains, dt } = scene;
     let all = |x| L::splat(proof, x);
     let (zero, one) = (all(0.0), all(1.0));
@@ -54,20 +54,21 @@ pub fn compute<C: ContactLaw, L: Lanes>(proof: L::Proof, scene: Scene<'_, C>, ti
             // SAFETY: as above.
             unsafe { L::put(spring, &mut tile.walls.springs, slots.as_ptr(), used) };
             if bits != 0 {
-                let mut loads = [[0.0; GROUP]; 6];
+                let mut acts = [[0.0; GROUP]; 6];
                 for k in 0..3 {
-                    force[k].store(&mut loads[k]);
-                    spin[k].store(&mut loads[k + 3]);
+                    force[k].store(&mut acts[k]);
+                    spin[k].store(&mut acts[k + 3]);
                 }
                 let relative = L::select(touches, (radius - distance) / radius, zero).largest();
                 if relative > tile.found.overlap {
                     tile.found.overlap = relative;
                 }
                 for l in (0..used).filter(|l| bits >> l & 1 == 1) {
-                    let to = &mut tile.loads[tile.walls.grains[at + l] as usize - tile.grains.start].0;
+                    let to = &mut loads[tile.walls.grains[at + l] as usize - tile.grains.start].0;
                     for k in 0..3 {
-                        to[0].0[k] += loads[k][l];
-                        to[1].0[k] += loads[k + 3][l];
+                        tile.found.walls[k] += acts[k][l];
+                        to[0].0[k] += acts[k][l];
+                        to[1].0[k] += acts[k + 3][l];
                     }
                 }
                 tile.found.wall_contacts += bits.count_ones() as usize;

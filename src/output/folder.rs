@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::grains::{CHECKPOINT, is_frame};
+use super::grains::{CHECKPOINT, is_frame, is_partial};
 use super::{comparison, study};
 use crate::result::{Status, Summary};
 
@@ -14,7 +14,7 @@ pub(super) const OURS: &[&str] =
 /// The one folder in it, of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
 /// Written and removed to see whether files can be made.
-const PROBE: &str = ".probe";
+pub(super) const PROBE: &str = ".probe";
 
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]
@@ -203,7 +203,7 @@ impl Folder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(error) => return Err(unwritable(target)(error)),
             Ok(_) if !target.is_dir() => return Err(OutputError::NotAFolder(target.into())),
-            Ok(_) => Some(fs::read_dir(target).map_err(unwritable(target))?.next().is_some()),
+            Ok(_) => Some(entries(target).map_err(unwritable(target))?.iter().any(|(name, _)| !is_partial(name))),
         };
         let folder = match occupied {
             None => {
@@ -362,17 +362,16 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputEr
 /// Whether every entry of a folder is one of `ours`, a figure, or a file that was being written.
 pub(super) fn holds_only(folder: &Path, ours: &[&str]) -> Result<(), OutputError> {
     let unwritable = |error| OutputError::Unwritable { path: folder.into(), error };
-    let partial = |name: &str| name == PROBE || name.starts_with('.') && name.contains(".part-");
     let foreign = |entry: String| Err(OutputError::Foreign { folder: folder.into(), entry });
     for (name, is_folder) in entries(folder).map_err(unwritable)? {
         if is_folder != [FIGURES, study::POINTS].contains(&name.as_str())
-            || !(ours.contains(&name.as_str()) || partial(&name) || is_frame(&name))
+            || !(ours.contains(&name.as_str()) || is_partial(&name) || is_frame(&name))
         {
             return foreign(name);
         }
     }
     for (name, is_folder) in entries(&folder.join(FIGURES)).unwrap_or_default() {
-        if is_folder || !(name.ends_with(".png") || partial(&name)) {
+        if is_folder || !(name.ends_with(".png") || is_partial(&name)) {
             return foreign(format!("{FIGURES}/{name}"));
         }
     }

@@ -1,9 +1,16 @@
 //! Files that runs of grains write as they go.
 
-use super::folder::{Folder, OutputError, write_whole};
+use std::fs;
+
+use super::folder::{Folder, OutputError, PROBE, entries, write_whole};
 
 /// State from which a run of grains goes on.
 pub const CHECKPOINT: &str = "checkpoint.bin";
+
+/// What a run that was killed may leave behind.
+pub(super) fn is_partial(name: &str) -> bool {
+    name == PROBE || name.starts_with('.') && name.contains(".part-")
+}
 
 /// Pictures of the grains for ParaView.
 pub(super) fn is_frame(name: &str) -> bool {
@@ -11,15 +18,33 @@ pub(super) fn is_frame(name: &str) -> bool {
 }
 
 impl Folder {
-    /// Writes the checkpoint; of a run that goes on from another one beside that one, too: it may be stopped before it
-    /// takes its place.
+    /// Takes the checkpoint and the pictures of the run that goes on: it may fail before it has made its own.
     ///
     /// # Errors
     /// [`OutputError::Interrupted`] with the file.
-    pub fn write_checkpoint(&self, bytes: &[u8], going_on: bool) -> Result<(), OutputError> {
-        if going_on && self.place != self.target {
-            write_whole(&self.target.join(CHECKPOINT), |to| to.write_all(bytes))?;
+    pub fn carry_over(&self) -> Result<(), OutputError> {
+        if self.place == self.target {
+            return Ok(());
         }
-        self.write(CHECKPOINT, |to| to.write_all(bytes))
+        for (name, _) in entries(&self.target).unwrap_or_default() {
+            if name == CHECKPOINT || is_frame(&name) {
+                let path = self.place.join(&name);
+                let copied = fs::copy(self.target.join(&name), &path);
+                copied.map_err(|error| OutputError::Interrupted { path, error })?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes a file of a run that is on its way; where it goes on from another one beside that one, too: it may be killed
+    /// before it takes its place.
+    ///
+    /// # Errors
+    /// [`OutputError::Interrupted`] with the file.
+    pub fn write_on_the_way(&self, name: &str, bytes: &[u8], going_on: bool) -> Result<(), OutputError> {
+        if going_on && self.place != self.target {
+            write_whole(&self.target.join(name), |to| to.write_all(bytes))?;
+        }
+        self.write(name, |to| to.write_all(bytes))
     }
 }

@@ -43,7 +43,7 @@ pub fn grains_svg(table: impl BufRead) -> Option<String> {
         let share = if fast > slow { (u - slow) / (fast - slow) } else { 0.0 };
         let _ = writeln!(
             svg,
-            "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{:.2}\" fill=\"{}\"/>",
+            "<circle cx=\"{:.2}\" cy=\"{:.2}\" r=\"{:.2}\" fill=\"{}\" stroke=\"#000\" stroke-opacity=\"0.35\"/>",
             scale * (x - left),
             scale * (top - z),
             scale * r,

@@ -132,6 +132,7 @@ pub(super) fn coupled(scene: &Scene, model: &str, faults: &mut Faults) -> Option
             bottom: bed.bottom,
             size: [flow.length, flow.width],
             side_walls: flow.side_walls,
+            smooth_walls: false,
             beta,
             g: flow.gravity,
             contact,

@@ -4,8 +4,8 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::Faults;
 use crate::case::Fault;
-use crate::case::grain_tables::{Bottom, Discrete, Target};
-use crate::case::scene::{GrainsBed as BedScene, Impact as ImpactScene};
+use crate::case::grain_tables::{Bottom, Discrete, Target, Trial as Which};
+use crate::case::scene::{GrainsBed as BedScene, Impact as ImpactScene, Trial as TrialScene};
 use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::{Contact, LinearSpring};
 
@@ -24,6 +24,8 @@ pub struct GrainBed {
     pub size: [f64; 2],
     /// whether walls bound y
     pub side_walls: bool,
+    /// whether those are without friction
+    pub smooth_walls: bool,
     /// slope angle [rad]
     pub beta: f64,
     /// gravity [m/s2]
@@ -52,6 +54,25 @@ pub struct Impact {
     /// contact
     pub contact: LinearSpring,
     /// steps within the duration of the contact
+    pub steps_per_contact: f64,
+}
+
+/// A few grains, held against what is known exactly. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// what they are held against
+    pub trial: Which,
+    /// diameter [m]
+    pub d: f64,
+    /// density [kg/m3]
+    pub rho_p: f64,
+    /// velocity at the beginning [m/s]
+    pub velocity: f64,
+    /// gravity [m/s2]
+    pub g: f64,
+    /// contact
+    pub contact: LinearSpring,
+    /// steps within the duration of a contact
     pub steps_per_contact: f64,
 }
 
@@ -92,11 +113,25 @@ pub(super) fn bed(scene: &BedScene, faults: &mut Faults) -> Option<GrainBed> {
         bottom: bed.bottom,
         size: [flow.length, flow.width],
         side_walls: flow.side_walls,
+        smooth_walls: flow.smooth_walls,
         beta,
         g: flow.gravity,
         contact,
         discrete: *discrete,
     })
+}
+
+pub(super) fn trial(scene: &TrialScene) -> Trial {
+    let Contact::LinearSpring(contact) = scene.closures.contact;
+    Trial {
+        trial: scene.model.trial,
+        d: scene.grains.diameter,
+        rho_p: scene.grains.density,
+        velocity: scene.flow.velocity,
+        g: scene.flow.gravity,
+        contact,
+        steps_per_contact: scene.discrete.steps_per_contact,
+    }
 }
 
 pub(super) fn impact(scene: &ImpactScene) -> Impact {

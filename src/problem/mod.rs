@@ -9,7 +9,7 @@ mod sheet;
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
 pub use coupled::{Coupled, Surface};
-pub use grains::{GrainBed, Impact};
+pub use grains::{GrainBed, Impact, Trial};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
 
@@ -54,6 +54,8 @@ pub enum Model {
     Coupled(Coupled),
     /// the impact of one sphere
     Impact(Impact),
+    /// a few grains, held against what is known exactly
+    Trial(Trial),
 }
 
 /// Faults found while comparing values with each other, by path.
@@ -113,6 +115,7 @@ impl Problem {
                 (coupled.map(Model::Coupled), coupled.map_or(0, |coupled| coupled.bed.mobile))
             }
             Scene::Impact(scene) => (Some(Model::Impact(grains::impact(scene))), 1),
+            Scene::Trial(scene) => (Some(Model::Trial(grains::trial(scene))), 1),
         };
         let mut faults: Vec<(String, Fault)> =
             faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();

@@ -140,6 +140,28 @@ catalogue! {
     SPIN_AFTER = "spin_1_s", "angular velocity after the impact", "ω", "1/s", "positive rolls with the motion";
     SLIP_ERROR = "gross_slip_error", "error of the gross-slip law", "Δv_t/v", "1", "tangential velocity minus v_t - μ (1 + e) v_n, relative to the velocity; defined where the contact slips throughout";
     ENERGY_GAINED = "energy_gained", "energy gained", "ΔE/E", "1", "kinetic energy after over before the impact, minus 1";
+    RESTITUTION_WORST = "restitution_error_largest", "largest error of the restitution", "max |Δe|", "1", "of head-on impacts with restitution coefficients from 0.1 to 1, in both conventions, on wall, fixed and mobile grain";
+    RESTITUTION_BIAS = "restitution_bias_default", "bias of the restitution at the default step", "<Δe>", "1", "mean over the moment of touch of e minus that of the case, two mobile grains, step 0.7 of the limit of the pair";
+    RESTITUTION_SPREAD = "restitution_spread_default", "spread of the restitution at the default step", "max |Δe|", "1", "largest error over the moment of touch, two mobile grains, step 0.7 of the limit of the pair";
+    RESTITUTION_ORDER = "restitution_order", "order of the restitution", "p", "1", "observed between 25 and 200 steps within the contact";
+    CONTACT_TIME_WORST = "contact_time_error_largest", "largest error of the duration", "max |Δt_c/t_c|", "1", "of the same impacts, relative to the closed form";
+    GROSS_SLIP_WORST = "gross_slip_error_largest", "largest error of the gross-slip law", "max |Δv_t/Δ|", "1", "of oblique impacts at every degree that slip throughout, relative to the change of velocity μ (1 + e) v_n";
+    GROSS_SLIP_ANGLES = "gross_slip_angles", "angles of gross slip", "N", "1", "number of whole degrees at which the contact slips throughout";
+    SPIN_WORST = "spin_error_largest", "largest error of the spin", "max |Δω/ω|", "1", "of the same oblique impacts, relative to (5/2) μ (1 + e) v_n/R";
+    ENERGY_GAINED_WORST = "energy_gained_largest", "largest energy gained", "max ΔE/E", "1", "of impacts at 0 to 89 degrees with e_n 0.1, 0.5, 0.9, 1 and friction 0, 0.1, 0.4, 2";
+    ROLLING_TIME_ERROR = "rolling_time_error", "error of the time to rolling", "Δt/t", "1", "relative to 2 v_0/(7 μ g)";
+    ROLLING_VELOCITY_ERROR = "rolling_velocity_error", "error of the rolling velocity", "Δv/v", "1", "relative to (5/7) v_0, the worse of translation and rotation";
+    BOUNCE_ERROR = "bounce_height_error", "error of the heights of bouncing", "max |Δh/h|", "1", "of three impacts, each relative to e² times the height before";
+    STACK_ERROR = "stack_error", "error of the stack", "max |Δδ/δ|", "1", "overlaps of three grains at rest, relative to the weight that each carries over k_n";
+    MOMENTUM_ERROR = "momentum_error", "drift of the momentum", "max |Δp|/Σ|p|", "1", "of a free cluster and of a periodic box, relative to the sum of magnitudes";
+    ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "drift of the angular momentum", "max |ΔL|/Σ|L|", "1", "of a free cluster, relative to the sum of magnitudes";
+    LEDGER_ERROR = "energy_ledger_error", "defect of the account of energies", "ΔE/E", "1", "kinetic energy against all work over a million steps, relative to the largest";
+    SPRING_DEFECT = "spring_energy_defect", "defect of the spring energy", "max |ΔE|/E", "1", "kinetic and spring energy within an elastic impact at 0.7 of the limit of the pair, relative to the energy before";
+    SPRING_DEFECT_FINE = "spring_energy_defect_fine", "defect of the spring energy at a tenth of the step", "max |ΔE|/E", "1", "the same at a tenth of that step";
+    SPRING_ORDER = "spring_energy_order", "order of the spring energy", "p", "1", "observed between both";
+    PRESSURE_ERROR = "pressure_error", "error of the static pressure", "max |ΔP|/P", "1", "particle pressure minus the weight of the grains above, both averaged over a diameter, relative to the weight of all";
+    FRICTION_BULK = "friction_bulk", "friction within the flow", "τ_p/P_p", "1", "mean between a quarter and three quarters of the bed";
+    INERTIAL_NUMBER_BULK = "inertial_number_bulk", "inertial number within the flow", "I", "1", "d times the difference of velocity over the height between a quarter and three quarters of the bed, times sqrt(ρ_p/P_p)";
     REYNOLDS = "reynolds", "Reynolds number", "Re", "1", "ρ_f U_m H/η";
 }
 

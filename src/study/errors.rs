@@ -80,7 +80,8 @@ impl Focus {
             | Model::LogLaw(_)
             | Model::Grains(_)
             | Model::Coupled(_)
-            | Model::Impact(_) => None,
+            | Model::Impact(_)
+            | Model::Trial(_) => None,
         }
     }
 

@@ -9,6 +9,7 @@ mod cli;
 mod compare;
 mod converge;
 mod folder;
+mod grains;
 mod interruption;
 mod mutate;
 mod never_panics;

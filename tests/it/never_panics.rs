@@ -20,6 +20,7 @@ struct Tally {
     refused: Cell<usize>,
     failed: Cell<usize>,
     solved: Cell<usize>,
+    followed: Cell<usize>,
 }
 
 fn count(cell: &Cell<usize>) {
@@ -67,9 +68,9 @@ fn numbers_are_sound(problem: &Problem, outcome: &Outcome) -> Result<(), TestCas
     for validity in &outcome.validity {
         require!(validity.value.is_finite() && validity.z_m.is_none_or(f64::is_finite), "{validity:?}");
     }
-    // An impact happens at one place: it has numbers and no levels.
+    // An impact or a trial happens at one place: it has numbers and no levels.
     let Some(profile) = &outcome.profile else {
-        require!(matches!(problem.model, Model::Impact(_)), "no profile");
+        require!(matches!(problem.model, Model::Impact(_) | Model::Trial(_)), "no profile");
         return Ok(());
     };
     let z = profile.axis();
@@ -125,6 +126,12 @@ fn hold(tally: &Tally, Input { text, overrides }: &Input) -> Result<(), TestCase
     let resolved = case.resolved();
     let again = Case::parse("case", "case.toml", resolved.clone(), &[]);
     require!(again.is_ok_and(|again| again.resolved() == resolved), "does not resolve to itself:\n{resolved}");
+    // A run that follows grains takes as long as its case says: it is held up to its start.
+    if matches!(problem.model, Model::Grains(_) | Model::Coupled(_) | Model::Trial(_)) {
+        count(&tally.followed);
+        require!(!bedload::equations(&problem).contains("NaN"), "NaN in the equations");
+        return Ok(());
+    }
     problem.cells = problem.cells.min(64);
     match bedload::run(&problem, &mut Quiet) {
         Ok(outcome) => {

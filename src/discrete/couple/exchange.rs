@@ -61,6 +61,8 @@ pub struct Exchange {
     /// solid volume that crosses a unit of width in a unit of time [m2/s]
     rate: f64,
     volumes: Vec<f64>,
+    /// Reynolds stress at the centres of the cells after the last step [Pa]
+    reynolds: Vec<f64>,
 }
 
 impl Exchange {
@@ -100,6 +102,7 @@ impl Exchange {
             worst: 0.0,
             rate: 0.0,
             volumes: Vec::new(),
+            reynolds: zero(),
         })
     }
 
@@ -113,6 +116,12 @@ impl Exchange {
     #[must_use]
     pub fn rate(&self) -> f64 {
         self.rate
+    }
+
+    /// Reynolds stress of the cells [Pa].
+    #[must_use]
+    pub fn reynolds(&self) -> &[f64] {
+        &self.reynolds
     }
 
     /// Height of a cell [m].
@@ -244,13 +253,15 @@ impl Exchange {
         for (size, phi) in self.felt.size.iter_mut().zip(&self.medium.phi) {
             *size = law.size(*phi, rho, d);
         }
+        let faces = self.column.tau_reynolds().windows(2);
+        self.reynolds.iter_mut().zip(faces).for_each(|(centre, pair)| *centre = 0.5 * (pair[0] + pair[1]));
     }
 
     /// Writes the state.
     pub fn save(&self, to: &mut Writer) {
         to.whole(self.medium.phi.len() as u64);
         to.number(self.height);
-        let state = [self.column.velocity(), &self.medium.phi, &self.account];
+        let state = [self.column.velocity(), &self.medium.phi, &self.account, &self.reynolds];
         state.into_iter().flatten().for_each(|x| to.number(*x));
         for sum in self.totals {
             to.number(sum.value);
@@ -273,8 +284,8 @@ impl Exchange {
         if this.medium.phi.len() != cells {
             return Err(WRONG);
         }
-        let mut velocity = vec![0.0; cells];
-        for values in [&mut velocity, &mut this.medium.phi, &mut this.account] {
+        let (mut velocity, mut reynolds) = (vec![0.0; cells], vec![0.0; cells]);
+        for values in [&mut velocity, &mut this.medium.phi, &mut this.account, &mut reynolds] {
             for x in values {
                 *x = from.number()?;
             }
@@ -289,6 +300,8 @@ impl Exchange {
             *word = from.number()?.to_bits();
         }
         this.feel();
+        // The column knows its stresses only after a step.
+        this.reynolds = reynolds;
         Ok(this)
     }
 

@@ -10,8 +10,9 @@ use crate::case::grain_tables::Bottom;
 use crate::closures::fluctuation::Fluctuation;
 use crate::column::ColumnError;
 use crate::discrete::average::Averages;
-use crate::discrete::bed::{deposit, resting};
+use crate::discrete::bed::{refused, threads, unwritable};
 use crate::discrete::checkpoint::{CheckpointError, Reader, Saved, Writer};
+use crate::discrete::deposit::{CHECKPOINT, Deposit, Stage, deposit};
 use crate::discrete::engine::Engine;
 use crate::discrete::grains::{Grain, Point};
 use crate::discrete::impact::{contact_equations, law};
@@ -75,13 +76,43 @@ pub fn accepts(flow: &Coupled, bytes: &[u8]) -> Result<(), CheckpointError> {
 /// # Errors
 /// [`Failure`] with the grain or the cell that cannot go on, and the averages so far.
 pub fn run(flow: &Coupled, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
-    let mut run = match watch.resumed("checkpoint.bin") {
-        Some(bytes) => Run::resumed(flow, &bytes)?,
-        None => match Run::begin(flow, watch)? {
-            ControlFlow::Continue(run) => run,
-            ControlFlow::Break(()) => return Ok(nothing(Status::Stopped)),
-        },
+    let half_way = match watch.resumed(CHECKPOINT) {
+        Some(bytes) => Some(resume(flow, &bytes).map_err(refused)?),
+        None => None,
     };
+    let falling = match half_way {
+        Some(HalfWay::Flowing(run)) => return go_on(*run, watch),
+        Some(HalfWay::Falling(stage, engine)) => Some((stage, *engine)),
+        None => None,
+    };
+    let fixed = (flow.bed.bottom == Bottom::Steps).then(|| relief(flow));
+    let what = Deposit { bed: &flow.bed, fixed: fixed.as_deref(), name: &name(flow) };
+    match deposit(what, falling, watch)? {
+        ControlFlow::Continue(engine) => go_on(Run::begin(flow, engine)?, watch),
+        ControlFlow::Break(()) => Ok(nothing(Status::Stopped)),
+    }
+}
+
+/// A run that was interrupted.
+pub(super) enum HalfWay<'a> {
+    Falling(Stage, Box<Engine<LinearSpring>>),
+    Flowing(Box<Run<'a>>),
+}
+
+pub(super) fn resume<'a>(flow: &'a Coupled, bytes: &[u8]) -> Result<HalfWay<'a>, CheckpointError> {
+    let mut from = Reader::open(bytes, &name(flow))?;
+    let stage = Stage::read(&mut from)?;
+    let contact = law(&flow.bed.contact).map_err(|_| CheckpointError::OtherCase)?;
+    let engine = Engine::restore(&mut from, stage.domain(&flow.bed), contact, threads())?;
+    let half_way = match stage {
+        Stage::Below | Stage::Falling => HalfWay::Falling(stage, Box::new(engine)),
+        Stage::Flowing => HalfWay::Flowing(Box::new(Run::restore(flow, engine, &mut from)?)),
+    };
+    from.close()?;
+    Ok(half_way)
+}
+
+fn go_on(mut run: Run<'_>, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let status = match run.follow(watch) {
         Ok(status) => status,
         Err(error) => {
@@ -93,14 +124,6 @@ pub fn run(flow: &Coupled, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let mut side = || picture::side_view(run.engine.grains()).into_bytes();
     watch.keep("grains.csv", true, &mut side).map_err(|error| unwritable(&error))?;
     Ok(outcome)
-}
-
-fn unwritable(error: &std::io::Error) -> SolveError {
-    SolveError::Grains {
-        code: "file",
-        message: format!("a file of the grains cannot be written: {error}"),
-        hint: "free some space, or give another folder with --out",
-    }
 }
 
 /// Fixed grains side by side at random elevations in steps; none on another bottom.
@@ -130,12 +153,9 @@ pub(super) fn level(phi: &[f64], height: f64, d: f64) -> f64 {
 }
 
 impl<'a> Run<'a> {
-    pub(super) fn begin(flow: &'a Coupled, watch: &mut dyn Watch) -> Result<ControlFlow<(), Self>, SolveError> {
+    /// Starts the fluid over a bed that has come to rest.
+    pub(super) fn begin(flow: &'a Coupled, mut engine: Engine<LinearSpring>) -> Result<Self, SolveError> {
         let bed = &flow.bed;
-        let fixed = (bed.bottom == Bottom::Steps).then(|| relief(flow));
-        let ControlFlow::Continue(mut engine) = deposit(bed, fixed, watch)? else {
-            return Ok(ControlFlow::Break(()));
-        };
         let contact = law(&bed.contact)?;
         let limit = stability::limit(&engine).step.min(stability::of_pair(&contact, 0.5 * bed.mass()));
         let wanted = bed.discrete.time_step.unwrap_or(bed.discrete.safety * limit);
@@ -158,7 +178,7 @@ impl<'a> Run<'a> {
         let area = bed.size[0] * bed.size[1];
         let shape = [0.0, exchange.cell_height(), area * exchange.cell_height(), bed.rho_p];
         let sampled = (flow.sample_period / flow.coupling_period).round().max(1.0) as u64;
-        Ok(ControlFlow::Continue(Self {
+        Ok(Self {
             flow,
             engine,
             exchange,
@@ -171,7 +191,7 @@ impl<'a> Run<'a> {
             turn: 0,
             draws: 0,
             rates: 0.0,
-        }))
+        })
     }
 
     /// Follows grains and fluid to the end.
@@ -210,7 +230,7 @@ impl<'a> Run<'a> {
             let stage = format!("{:.1} s of flow, {left:.0} s left{precision},", self.time());
             let fraction = self.made as f64 / self.periods as f64;
             let stop = watch.see(&Snapshot { stage: &stage, fraction, quantity: known }).is_break();
-            let kept = watch.keep("checkpoint.bin", stop, &mut || self.checkpoint());
+            let kept = watch.keep(CHECKPOINT, stop, &mut || self.checkpoint());
             kept.map_err(|error| unwritable(&error))?;
             if stop {
                 return Ok(Status::Stopped);
@@ -251,10 +271,9 @@ impl<'a> Run<'a> {
         let dt = self.engine.settings().dt;
         let time = if speed > 0.0 { depth / speed } else { f64::INFINITY };
         self.turn = (time / dt).round().clamp(1.0, 1e12) as u64;
-        let (phi, reynolds) = (self.exchange.phi(), self.exchange.column.tau_reynolds());
-        let mut deviations: Vec<f64> = (0..phi.len())
-            .map(|i| walk.deviation(0.5 * (reynolds[i] + reynolds[i + 1]), 1.0 - phi[i], self.flow.rho_f))
-            .collect();
+        let (phi, reynolds) = (self.exchange.phi(), self.exchange.reynolds());
+        let mut deviations: Vec<f64> =
+            (0..phi.len()).map(|i| walk.deviation(reynolds[i], 1.0 - phi[i], self.flow.rho_f)).collect();
         deviations.push(0.0);
         let seed = u64::from(self.flow.bed.discrete.seed);
         let grains = self.engine.grains();
@@ -281,6 +300,7 @@ impl<'a> Run<'a> {
 
     pub(super) fn checkpoint(&self) -> Vec<u8> {
         let mut to = Writer::default();
+        to.whole(Stage::Flowing.number());
         self.engine.save(&mut to);
         for count in [self.steps, self.sampled, self.periods, self.made, self.turn, self.draws] {
             to.whole(count);
@@ -292,31 +312,24 @@ impl<'a> Run<'a> {
         to.seal(&name(self.flow))
     }
 
-    pub(super) fn resumed(flow: &'a Coupled, bytes: &[u8]) -> Result<Self, SolveError> {
-        let read = || -> Result<Self, CheckpointError> {
-            let mut from = Reader::open(bytes, &name(flow))?;
-            let contact = law(&flow.bed.contact).map_err(|_| CheckpointError::OtherCase)?;
-            let domain = pack::domain(&resting(&flow.bed));
-            let engine = Engine::restore(&mut from, domain, contact, crate::runtime::pool::wanted())?;
-            let mut counts = [0; 6];
-            for count in &mut counts {
-                *count = from.whole()?;
-            }
-            let [steps, sampled, periods, made, turn, draws] = counts;
-            let rates = from.number()?;
-            let exchange = Exchange::restore(flow, engine.grains().len(), &mut from)?;
-            let cells = exchange.phi().len();
-            let mut averages = Averages::empty(cells, BLOCKS, [0.0; 4]);
-            averages.fill(&mut from)?;
-            let record = Record::read(&mut from, cells)?;
-            from.close()?;
-            Ok(Self { flow, engine, exchange, averages, record, steps, sampled, periods, made, turn, draws, rates })
-        };
-        read().map_err(|error| SolveError::Grains {
-            code: "checkpoint",
-            message: format!("checkpoint.bin cannot be used: {error}"),
-            hint: "--force starts again",
-        })
+    /// Reads the rest of a checkpoint of the flow.
+    fn restore(
+        flow: &'a Coupled,
+        engine: Engine<LinearSpring>,
+        from: &mut Reader<'_>,
+    ) -> Result<Self, CheckpointError> {
+        let mut counts = [0; 6];
+        for count in &mut counts {
+            *count = from.whole()?;
+        }
+        let [steps, sampled, periods, made, turn, draws] = counts;
+        let rates = from.number()?;
+        let exchange = Exchange::restore(flow, engine.grains().len(), from)?;
+        let cells = exchange.phi().len();
+        let mut averages = Averages::empty(cells, BLOCKS, [0.0; 4]);
+        averages.fill(from)?;
+        let record = Record::read(from, cells)?;
+        Ok(Self { flow, engine, exchange, averages, record, steps, sampled, periods, made, turn, draws, rates })
     }
 }
 

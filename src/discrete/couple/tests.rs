@@ -2,7 +2,7 @@
 
 use super::exchange::Exchange;
 use super::record::Record;
-use super::run::{Run, level, relief};
+use super::run::{HalfWay, Run, level, relief, resume};
 use super::{Felt, run};
 use crate::case::grain_tables::Bottom;
 use crate::closures::contact::{LinearSpring, Tension};
@@ -11,6 +11,7 @@ use crate::closures::fluctuation::{Fluctuation, RandomWalk};
 use crate::closures::mixing_length::{BelowPacked, LiSawamoto, MixingLength};
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::side_wall::SideWall;
+use crate::discrete::deposit::{Deposit, deposit};
 use crate::discrete::domain::Domain;
 use crate::discrete::engine::{Engine, Settings};
 use crate::discrete::grains::Grain;
@@ -46,6 +47,7 @@ fn flow() -> Coupled {
             bottom: Bottom::Steps,
             size: [6.0 * D, 6.0 * D],
             side_walls: false,
+            smooth_walls: false,
             beta: 0.1_f64.atan(),
             g: 9.81,
             contact: LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, e_n: 0.5, tension: Tension::Cut },
@@ -204,16 +206,19 @@ impl Watch for At {
 #[test]
 fn a_run_that_goes_on_makes_the_same_bits() {
     let case = flow();
-    let Ok(ControlFlow::Continue(mut whole)) = Run::begin(&case, &mut Quiet) else {
+    let fixed = relief(&case);
+    let what = Deposit { bed: &case.bed, fixed: Some(&fixed), name: &[0; 32] };
+    let Ok(ControlFlow::Continue(engine)) = deposit(what, None, &mut Quiet) else {
         panic!("the bed does not rest");
     };
+    let mut whole = Run::begin(&case, engine).unwrap();
     let mut at = At { calls: 0, wanted: 17, bytes: Vec::new() };
     whole.follow(&mut at).unwrap();
     assert_eq!(at.calls, 40);
     let middle = at.bytes;
     for threads in [1, 2] {
         pool::want(threads);
-        let mut resumed = Run::resumed(&case, &middle).unwrap();
+        let Ok(HalfWay::Flowing(mut resumed)) = resume(&case, &middle) else { panic!("not resumed") };
         resumed.follow(&mut Quiet).unwrap();
         assert!(resumed.checkpoint() == whole.checkpoint(), "{threads} threads");
     }

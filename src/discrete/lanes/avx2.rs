@@ -4,7 +4,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Load, Pair, Quad, Row};
+use super::{Lanes, Load, Pair, Quad, Row, Window};
 
 /// Evidence that the machine has AVX2: nothing else makes one, and without it there is no [`Four`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,8 +203,8 @@ impl Lanes for Four {
         }
     }
     #[inline(always)]
-    unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], first: u32, pairs: *const Pair, count: usize) {
-        // SAFETY: the caller has four pairs whose indices minus `first` are inside the loads, which are aligned.
+    unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], of: Window, pairs: *const Pair, count: usize) {
+        // SAFETY: the caller has four pairs whose places are inside the loads, which are aligned.
         unsafe {
             let flip = _mm256_set1_pd(-0.0);
             let zero = _mm256_setzero_pd();
@@ -212,10 +212,10 @@ impl Lanes for Four {
             let high = transpose([spin[0].0, spin[1].0, spin[2].0, zero]);
             for l in 0..count {
                 let Pair { i, j } = *pairs.add(l);
-                let to: *mut f64 = loads.as_mut_ptr().add((i - first) as usize).cast();
+                let to: *mut f64 = loads.as_mut_ptr().add(of.place(i)).cast();
                 _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), _mm256_xor_pd(low[l], flip)));
                 _mm256_store_pd(to.add(4), _mm256_add_pd(_mm256_load_pd(to.add(4)), high[l]));
-                let to: *mut f64 = loads.as_mut_ptr().add((j - first) as usize).cast();
+                let to: *mut f64 = loads.as_mut_ptr().add(of.place(j)).cast();
                 _mm256_store_pd(to, _mm256_add_pd(_mm256_load_pd(to), low[l]));
                 _mm256_store_pd(to.add(4), _mm256_add_pd(_mm256_load_pd(to.add(4)), high[l]));
             }

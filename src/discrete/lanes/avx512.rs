@@ -4,7 +4,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Load, Pair, Row};
+use super::{Lanes, Load, Pair, Row, Window};
 
 /// Evidence that the machine has AVX-512 F, DQ and VL: nothing else makes one, and without it there is no [`Eight`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -210,8 +210,8 @@ impl Lanes for Eight {
         }
     }
     #[inline(always)]
-    unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], first: u32, pairs: *const Pair, count: usize) {
-        // SAFETY: the caller has eight pairs whose indices minus `first` are inside the loads, which are aligned.
+    unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], of: Window, pairs: *const Pair, count: usize) {
+        // SAFETY: the caller has eight pairs whose places are inside the loads, which are aligned.
         unsafe {
             let flip = _mm512_setr_pd(-0.0, -0.0, -0.0, -0.0, 0.0, 0.0, 0.0, 0.0);
             let zero = _mm512_setzero_pd();
@@ -226,9 +226,9 @@ impl Lanes for Eight {
             });
             for (l, value) in whole.into_iter().enumerate().take(count) {
                 let Pair { i, j } = *pairs.add(l);
-                let to: *mut f64 = loads.as_mut_ptr().add((i - first) as usize).cast();
+                let to: *mut f64 = loads.as_mut_ptr().add(of.place(i)).cast();
                 _mm512_store_pd(to, _mm512_add_pd(_mm512_load_pd(to), _mm512_xor_pd(value, flip)));
-                let to: *mut f64 = loads.as_mut_ptr().add((j - first) as usize).cast();
+                let to: *mut f64 = loads.as_mut_ptr().add(of.place(j)).cast();
                 _mm512_store_pd(to, _mm512_add_pd(_mm512_load_pd(to), value));
             }
         }

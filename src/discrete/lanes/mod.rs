@@ -107,8 +107,28 @@ pub trait Lanes:
     /// Adds (-force, spin) to i and (force, spin) to j, for the first `count` of the pairs in their order.
     ///
     /// # Safety
-    /// `pairs` holds `WIDTH` pairs; their indices minus `first` are below the length of `loads`; `count` is at most `WIDTH`.
-    unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], first: u32, pairs: *const Pair, count: usize);
+    /// `pairs` holds `WIDTH` pairs; the places of their grains are below the length of `loads`; `count` is at most `WIDTH`.
+    unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], of: Window, pairs: *const Pair, count: usize);
+}
+
+/// To which grains rows of loads belong: to those from `first` on, and after the last of all to the first again.
+#[derive(Clone, Copy, Debug)]
+pub struct Window {
+    /// grain of the first row
+    pub first: u32,
+    /// number of all grains
+    pub grains: u32,
+}
+
+impl Window {
+    /// The row of grain `i`.
+    #[inline(always)]
+    #[must_use]
+    pub fn place(self, i: u32) -> usize {
+        let ahead = i.wrapping_sub(self.first);
+        // Before the first one: a difference that wrapped around is larger than any number of grains.
+        ahead.min(ahead.wrapping_add(self.grains)) as usize
+    }
 }
 
 /// Two grains of the list, i before j. One 64-bit word, so that it can be packed as one.

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Load, Pair, Quad, Row};
+use super::{Lanes, Load, Pair, Quad, Row, Window};
 
 /// One number.
 #[derive(Clone, Copy, Debug)]
@@ -125,19 +125,19 @@ impl Lanes for One {
         }
     }
     #[inline(always)]
-    unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], first: u32, pairs: *const Pair, count: usize) {
+    unsafe fn act(force: [Self; 3], spin: [Self; 3], loads: &mut [Load], of: Window, pairs: *const Pair, count: usize) {
         if count == 0 {
             return;
         }
-        // SAFETY: the caller has one pair, whose indices minus `first` are inside the loads.
+        // SAFETY: the caller has one pair, whose places are inside the loads.
         unsafe {
             let Pair { i, j } = pairs.read();
-            let to = &mut loads.get_unchecked_mut((i - first) as usize).0;
+            let to = &mut loads.get_unchecked_mut(of.place(i)).0;
             for k in 0..3 {
                 to[0].0[k] -= force[k].0;
                 to[1].0[k] += spin[k].0;
             }
-            let to = &mut loads.get_unchecked_mut((j - first) as usize).0;
+            let to = &mut loads.get_unchecked_mut(of.place(j)).0;
             for k in 0..3 {
                 to[0].0[k] += force[k].0;
                 to[1].0[k] += spin[k].0;

@@ -84,3 +84,70 @@ fn a_damaged_checkpoint_is_refused_whatever_the_damage() {
     let mut from = Reader::open(&sealed, &case).unwrap();
     assert!(Engine::restore(&mut from, engine.domain().clone(), law(0.5, Tension::Cut), 1).is_err());
 }
+
+#[test]
+fn every_near_pair_is_listed_once_however_periods_and_tiles_lie() {
+    let grains = gas(5000, 0.12, 0.2);
+    // One axis stretched: layers lie across it, and around its period the last meets the first.
+    let shapes = [[4.0, 0.6, 0.6], [0.6, 4.0, 0.6], [0.6, 0.6, 4.0], [1.0, 1.0, 1.0], [16.0, 0.2, 0.4]];
+    for stretch in shapes {
+        for periodic in [[true, true], [true, false], [false, false]] {
+            let scaled: Vec<Grain> = grains
+                .iter()
+                .map(|g| Grain { position: std::array::from_fn(|k| g.position[k] * stretch[k]), ..*g })
+                .collect();
+            let period = |k: usize| periodic[k].then_some(0.12 * stretch[k]);
+            let domain = Domain { periods: [period(0), period(1)], walls: Vec::new() };
+            let settings = Settings { largest_overlap: 2.0, ..Settings::new(1e-5, [0.0; 3], 2.0 * R) };
+            let mut engine = Engine::new(&scaled, domain.clone(), law(0.5, Tension::Cut), settings, 2).unwrap();
+            engine.forces(0.0);
+            let all = engine.grains();
+            let mut found: Vec<[usize; 2]> =
+                engine.contacts().map(|c| [c.first.min(c.second.unwrap()), c.first.max(c.second.unwrap())]).collect();
+            found.sort_unstable();
+            let mut expected = Vec::new();
+            for i in 0..all.len() {
+                for j in i + 1..all.len() {
+                    let apart = domain.apart(all.position(i), all.position(j));
+                    let reach = all.radius(i) + all.radius(j);
+                    if apart.iter().map(|x| x * x).sum::<f64>() < reach * reach {
+                        expected.push([i, j]);
+                    }
+                }
+            }
+            assert!(expected.len() > 300, "{}", expected.len());
+            assert_eq!(found, expected, "{stretch:?} {periodic:?}");
+            assert_eq!(engine.found().contacts, expected.len());
+            assert!(engine.tiles.len() == 4, "{}", engine.tiles.len());
+        }
+    }
+}
+
+#[test]
+fn a_long_channel_of_many_tiles_gives_the_same_bits_and_keeps_its_momentum() {
+    // Along x the last tile acts on the first one.
+    let grains: Vec<Grain> = gas(5000, 0.14, 0.1)
+        .into_iter()
+        .map(|g| Grain { position: [4.0 * g.position[0], 0.5 * g.position[1], 0.5 * g.position[2]], ..g })
+        .collect();
+    let domain = Domain { periods: [Some(0.56), Some(0.07)], walls: Vec::new() };
+    let run = |threads, backend| {
+        let settings = Settings { largest_overlap: 2.0, ..Settings::new(1e-5, [0.0; 3], 2.0 * R) };
+        let engine = Engine::new(&grains, domain.clone(), law(0.5, Tension::Cut), settings, threads).unwrap();
+        let mut engine = engine.with_backend(backend);
+        let before = engine.grains().momentum();
+        go(&mut engine, 300);
+        assert!(engine.rebuilds() > 2 && engine.found().contacts > 300);
+        let scale: f64 = (0..grains.len()).map(|i| engine.grains().mass(i)).sum();
+        for (now, before) in engine.grains().momentum().into_iter().zip(before) {
+            assert!((now - before).abs() < 1e-13 * scale, "{:e}", now - before);
+        }
+        hash(&engine)
+    };
+    let first = run(1, Backend::Scalar);
+    for backend in Backend::available() {
+        for threads in [1, 2, 3, 4] {
+            assert_eq!(run(threads, backend), first, "{} {threads}", backend.name());
+        }
+    }
+}

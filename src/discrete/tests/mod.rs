@@ -8,6 +8,9 @@ mod motion;
 
 use super::body::Nothing;
 use super::{Domain, Engine, Grain, LinearSpring, Point, Settings, Tension, Wall};
+use crate::case::grain_tables::Trial as Which;
+use crate::closures::contact;
+use crate::problem::Trial;
 
 /// Radius [m] and density [kg/m3] of the paper's grains.
 const R: f64 = 3e-3;
@@ -38,20 +41,13 @@ fn go(engine: &mut Engine<LinearSpring>, steps: usize) {
 
 /// A cloud of `n` grains of a range of sizes that fly about in a box of side `side`.
 fn gas(n: u64, side: f64, spread: f64) -> Vec<Grain> {
-    let per_side = (n as f64).cbrt().ceil() as u64;
-    let spacing = side / per_side as f64;
-    (0..n)
-        .map(|i| {
-            let mut stream = crate::runtime::rng::Stream::new([7, 0, i]);
-            let mut draw = || 2.0 * stream.uniform() - 1.0;
-            let cell = [i % per_side, i / per_side % per_side, i / (per_side * per_side)];
-            let radius = R * (1.0 + spread * draw());
-            let position = cell.map(|c| (c as f64 + 0.5) * spacing + 0.1 * R * draw());
-            let velocity = [draw(), draw(), draw()];
-            let spin = [100.0 * draw(), 100.0 * draw(), 100.0 * draw()];
-            Grain { position, velocity, spin, radius, density: RHO, fixed: false }
-        })
-        .collect()
+    crate::discrete::trials::clouds::cloud(n, side, spread, &Grain::at_rest([0.0; 3], R, RHO), 1.0)
+}
+
+/// The trial of the paper's grains.
+fn trial(which: Which, e_n: f64, steps_per_contact: f64) -> Trial {
+    let contact = contact::LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, e_n, tension: Tension::Cut };
+    Trial { trial: which, d: 2.0 * R, rho_p: RHO, velocity: 0.1, g: G, contact, steps_per_contact }
 }
 
 fn hash(engine: &Engine<LinearSpring>) -> u64 {
