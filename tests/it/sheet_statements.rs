@@ -1,9 +1,10 @@
-//! What Revil-Baudard & Chauchat (2013) say of their sheet flows, computed: each statement that takes more than one run.
+//! What Revil-Baudard & Chauchat (2013) say of their sheet flows, computed: each statement that takes more than one run; and
+//! what a run says of its lid and its bottom, by hand.
 //! `cargo test --release --test it sheet_statements -- --nocapture` prints the numbers of docs/sheet-flow.md.
 
 use bedload::case::Case;
 use bedload::problem::Problem;
-use bedload::result::{Outcome, Quiet};
+use bedload::result::{Outcome, Quiet, quantity as q};
 use bedload::run;
 
 const RUNS: [&str; 3] = ["sheet_1d_sumer82", "sheet_1d_sumer91", "sheet_1d_sumer99"];
@@ -103,5 +104,49 @@ fn light_grains_fall_freely_and_sand_in_turbulence() {
         assert!(get(&a, "free_fall_share") > 0.6 && get(&b, "turbulent_share") > 0.9);
         let ratio = |o: &Outcome| get(o, "roughness_m") / get(o, "sheet_thickness_m");
         println!("theta {theta}: roughness over thickness {:.3} (A), {:.3} (B)", ratio(&a), ratio(&b));
+    }
+}
+
+/// Colebrook and White for a smooth wall, by fixed point.
+fn smooth_factor(reynolds: f64) -> f64 {
+    (0..100).fold(0.02_f64, |f, _| (-2.0 * (2.51 / (reynolds * f.sqrt())).log10()).powi(-2))
+}
+
+#[test]
+fn a_smooth_lid_takes_what_colebrook_and_white_say() {
+    for case in RUNS {
+        let settings = ["flow.shields=", "closures.lid={ law = \"colebrook-white\" }"].map(str::to_owned);
+        let outcome = solve(case, &settings);
+        let profile = outcome.profile.as_ref().unwrap();
+        let (z, u) = (profile.axis(), profile.get(&q::U_MIXTURE).unwrap());
+        let (bed, height) = (get(&outcome, "bed_level_m"), get(&outcome, "flow_height_m"));
+        let above: Vec<usize> = (0..z.len()).filter(|&i| z[i] >= bed).collect();
+        let last = above[above.len() - 1];
+        let inside: f64 =
+            above.windows(2).map(|w| 0.5 * (z[w[1]] - z[w[0]]) * (u[w[0]].unwrap() + u[w[1]].unwrap())).sum();
+        let depth = height - bed;
+        let mean = (inside + (height - z[last]) * u[last].unwrap()) / depth;
+        let expect = smooth_factor(mean * 2.0 * depth / 1e-6) / 8.0 * 1000.0 * mean * mean;
+        let found = get(&outcome, "lid_stress_Pa");
+        assert!((found / expect - 1.0).abs() < 2e-3, "{case}: {found} {expect}");
+    }
+}
+
+#[test]
+fn the_bottom_carries_the_weight_of_the_grains_normal_to_it() {
+    for (case, slope, weight) in [("sheet_1d_type_a", 0.016, 140.0 * 9.81), ("sheet_1d_type_b", 0.05, 1600.0 * 9.81)] {
+        let drive = ["flow.shields=".to_owned(), format!("flow.slope={slope}")];
+        let room = ["bed.level=0.15", if slope < 0.02 { "flow.height=0.19" } else { "flow.height=0.16" }];
+        let settings: Vec<String> = drive.into_iter().chain(room.map(str::to_owned)).collect();
+        let outcome = solve(case, &settings);
+        let profile = outcome.profile.as_ref().unwrap();
+        let (z, p) = (profile.axis(), profile.get(&q::P_PARTICLE).unwrap());
+        // Packed grains at rest: linear down to the bottom.
+        let (a, b) = (p[1].unwrap(), p[2].unwrap());
+        let bottom = a + (a - b) / (z[2] - z[1]) * z[1];
+        let sine = get(&outcome, "slope_sine");
+        assert_eq!(sine, slope);
+        let expect = weight * (1.0 - sine * sine).sqrt() * get(&outcome, "solid_volume_bed_m");
+        assert!((bottom / expect - 1.0).abs() < 1e-9, "{case}: {bottom} {expect}");
     }
 }

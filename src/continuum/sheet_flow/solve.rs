@@ -7,7 +7,7 @@ use super::flow::Flow;
 use super::iteration::Pace;
 use super::mesh::Mesh;
 use super::newton::{Column, Reason, Stalled};
-use super::start::{Guess, TOP};
+use super::start::{Guess, TOP, mobile_volume};
 use crate::problem::BedReading;
 
 /// Cells of the coarse mesh, and share of the range of the friction at which the first guess lets the grains shear; tried in
@@ -26,6 +26,11 @@ const TRIALS: [(Floor, usize, f64); 10] = [
 ];
 /// The first guess of the iteration.
 pub const REST: Guess = Guess { floor: Floor::Bottom, friction: 0.8, mobile: None };
+/// I_0 and b that are easy, and the steps from there to those of the flow.
+const EASY: (f64, f64) = (0.3, 0.75);
+const EASING: u8 = 6;
+/// All of a bed may move if the balance of the moving layer estimates this share of its grains to.
+const CREDIBLE: f64 = 0.4;
 /// Relative residual at which a coarse solution is good enough to start from.
 const ROUGH: f64 = 1e-5;
 /// A cut that is short by less than this share is long enough.
@@ -69,9 +74,16 @@ pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stall
     let mut history = Vec::new();
     let mut last = Stalled::new(f64::INFINITY, 0);
     for trial in TRIALS.into_iter().map(Some).chain([None]) {
+        // Where everything seems to move, another guess may know better; the iteration does not.
+        if trial.is_none() && last.reason.is_some() {
+            break;
+        }
         let attempt = coarse(flow, setting, trial, cells, &mut history)
             .and_then(|from| refine(flow, setting, cells, &from, &mut history));
         match attempt {
+            Ok((_, state, _)) if state.rest < 0.0 => {
+                last = Stalled { reason: Some(Reason::AllMove), ..Stalled::new(0.0, history.len()) };
+            }
             Ok((column, state, change_of_type)) if flow.lambda == 0.0 => {
                 return Ok(Solved { column, state, exact: None, history, change_of_type });
             }
@@ -80,11 +92,11 @@ pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stall
                 return Ok(Solved { column, state, exact, history, change_of_type });
             }
             Err(stalled) => {
-                if stalled.residual < last.residual || stalled.reason.is_some() {
+                if last.reason.is_none() && (stalled.residual < last.residual || stalled.reason.is_some()) {
                     last = stalled;
                 }
-                if stalled.reason.is_some() {
-                    break;
+                if let Some(Reason::RunsAway(_)) = stalled.reason {
+                    return Err(Stalled { iterations: history.len(), ..stalled });
                 }
             }
         }
@@ -105,6 +117,11 @@ fn coarse(
     // The amount of grains is settled last.
     let setting = Setting { reading: BedReading::Final, ..setting };
     let (floor, size, friction) = trial.unwrap_or((Floor::Bottom, 80, 0.8));
+    if trial.is_none()
+        && let Ok(eased) = ease(open, setting, cells, history)
+    {
+        return Ok(eased);
+    }
     let (mut column, mut state) =
         Column::start(open, setting, size.min(cells), Guess { floor, friction, mobile: None });
     if trial.is_none() {
@@ -117,6 +134,26 @@ fn coarse(
     Ok((column, state))
 }
 
+/// The coarse solution from that of grains which resist and spread more readily: small I_0 and b are what Newton's method
+/// finds hard.
+fn ease(flow: Flow, setting: Setting, cells: usize, history: &mut Vec<f64>) -> Result<(Column, State), Stalled> {
+    let (floor, size, friction) = TRIALS[0];
+    let (i_0, b) = (flow.friction.i_0, flow.dilatancy.b);
+    let eased = |share: f64| {
+        let mut eased = flow;
+        eased.friction.i_0 = i_0 * (EASY.0 / i_0).max(1.0).powf(share);
+        eased.dilatancy.b = b * (EASY.1 / b).max(1.0).powf(share);
+        eased
+    };
+    let (mut column, mut state) =
+        Column::start(eased(1.0), setting, size.min(cells), Guess { floor, friction, mobile: None });
+    for k in (0..=EASING).rev() {
+        column.flow = eased(f64::from(k) / f64::from(EASING));
+        state = column.newton_to(state, ROUGH, history)?;
+    }
+    Ok((column, state))
+}
+
 /// From the coarse mesh to the wanted one, with the term, and to the wanted reading.
 fn refine(
     flow: Flow,
@@ -126,14 +163,24 @@ fn refine(
     history: &mut Vec<f64>,
 ) -> Result<Exact, Stalled> {
     let exact = Flow { lambda: 0.0, ..flow };
-    let Some(mobile) = coarse.yield_volume(rough).filter(|_| coarse.floor == Floor::Bottom || rough.rest > 0.0) else {
-        return Err(Stalled { reason: Some(Reason::AllMove), ..Stalled::new(ROUGH, history.len()) });
+    // Some coarse solutions have locked or loose layers that are none of the flow: the balance of the layer knows.
+    let estimate = mobile_volume(&coarse.flow, rough.tau_b, rough.sine);
+    let credible = estimate > CREDIBLE * flow.dilatancy.phi_max * setting.level;
+    let all_move =
+        Stalled { reason: credible.then_some(Reason::AllMove), ..Stalled::new(f64::INFINITY, history.len()) };
+    let mobile = coarse.yield_volume(rough).ok_or(all_move)?;
+    let rest = match setting.reading {
+        BedReading::Final => rough.m + rough.rest - mobile,
+        BedReading::Initial => flow.dilatancy.phi_max * setting.level - mobile,
     };
+    if rest <= 0.0 {
+        return Err(all_move);
+    }
     let from = Guess { floor: Floor::Yield, friction: REST.friction, mobile: Some(mobile) };
     let (mut column, _) = Column::start(exact, setting, cells, from);
     let cut = column.flow.cut.max(BEYOND * coarse.change_of_type(rough));
     column.flow.cut = cut;
-    let start = coarse.transfer(rough, &column.mesh, (mobile, rough.m + rough.rest - mobile));
+    let start = coarse.transfer(rough, &column.mesh, (mobile, rest));
     let mut attempt = column.newton(start.clone(), history);
     if attempt.is_err() {
         // The mesh first, the term then.
@@ -227,9 +274,8 @@ impl Column {
                 break Ok(state);
             }
             self.setting.level += step;
-            let at_rest = state.rest > 0.0;
             state = match self.newton(state, history) {
-                Ok(next) if at_rest && self.setting.level < wanted.height => next,
+                Ok(next) if self.setting.level < wanted.height => next,
                 _ => {
                     let residual = history.last().copied().unwrap_or(f64::INFINITY);
                     break Err(Stalled {

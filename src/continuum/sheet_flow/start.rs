@@ -156,7 +156,7 @@ fn drive_guess(flow: &Flow, setting: &Setting, sine: f64, room: f64) -> f64 {
 }
 
 /// Solid volume over the yield level, from the balance of the moving layer.
-fn mobile_volume(flow: &Flow, tau_b: f64, sine: f64) -> f64 {
+pub(super) fn mobile_volume(flow: &Flow, tau_b: f64, sine: f64) -> f64 {
     let hold = flow.friction.mu_s * (1.0 - sine * sine).max(0.0).sqrt();
     let net = hold - sine * (1.0 / (flow.delta * MEAN_PHI) + 1.0);
     tau_b / net.max(0.2 * hold)
