@@ -190,12 +190,8 @@ impl Exchange {
     /// [`ColumnError`] of the step that failed.
     pub fn advance(&mut self, period: f64, steps: u32) -> Result<(), ColumnError> {
         let before = self.column.velocity().to_vec();
-        for i in 0..before.len() {
-            let back = RETURNED * self.account[i];
-            let (drag, slope) = (self.drag[0][i] + self.drag[1][i], self.slope[0][i] + self.slope[1][i]);
-            self.medium.beta[i] = slope;
-            self.medium.force[i] = slope * (before[i] - self.medium.velocity[i]) - drag + back / (period * self.height);
-        }
+        let owed = RETURNED / (period * self.height);
+        self.expand(&before, owed);
         let dt = period / f64::from(steps);
         let mut taken = vec![0.0; before.len()];
         for _ in 0..steps {
@@ -217,6 +213,16 @@ impl Exchange {
         Ok(())
     }
 
+    /// The drag as the fluid meets it: D + b (u - uⁿ) around the velocity `before`, less `owed` [1/(m s)] of the account.
+    fn expand(&mut self, before: &[f64], owed: f64) {
+        let Self { medium, drag, slope, account, .. } = self;
+        for (i, u) in before.iter().enumerate() {
+            medium.beta[i] = slope[0][i] + slope[1][i];
+            let at_rest = medium.beta[i] * (u - medium.velocity[i]);
+            medium.force[i] = at_rest - (drag[0][i] + drag[1][i]) + owed * account[i];
+        }
+    }
+
     /// The steady flow through grains that stay where they are.
     ///
     /// # Errors
@@ -229,11 +235,7 @@ impl Exchange {
             self.feel();
             self.look(engine, 0.0);
             let before = self.column.velocity().to_vec();
-            for i in 0..before.len() {
-                let (drag, slope) = (self.drag[0][i] + self.drag[1][i], self.slope[0][i] + self.slope[1][i]);
-                self.medium.beta[i] = slope;
-                self.medium.force[i] = slope * (before[i] - self.medium.velocity[i]) - drag;
-            }
+            self.expand(&before, 0.0);
             self.column.step(&self.medium, &self.forcing, f64::INFINITY)?;
             self.feel();
             let largest = self.column.velocity().iter().fold(0.0, |m: f64, u| m.max(u.abs()));
