@@ -47,6 +47,7 @@ fn flow() -> Coupled {
             bottom: Bottom::Steps,
             size: [6.0 * D, 6.0 * D],
             side_walls: false,
+            smooth_walls: false,
             beta: 0.1_f64.atan(),
             g: 9.81,
             contact: LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, e_n: 0.5, tension: Tension::Cut },
