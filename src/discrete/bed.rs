@@ -40,7 +40,9 @@ impl GrainBed {
         Grain::at_rest([0.0; 3], 0.5 * self.d, self.rho_p).mass()
     }
 
-    fn gravity(&self) -> Point {
+    /// Gravity along the flow, across it and normal to the bed [m/s2].
+    #[must_use]
+    pub(super) fn gravity(&self) -> Point {
         [self.g * self.beta.sin(), 0.0, -self.g * self.beta.cos()]
     }
 }

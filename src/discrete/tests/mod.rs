@@ -4,6 +4,7 @@ mod bits;
 mod conservation;
 mod guards;
 mod impacts;
+mod laws;
 mod motion;
 
 use super::body::Nothing;
