@@ -171,6 +171,16 @@ pub enum SolveError {
 }
 
 impl SolveError {
+    /// An iteration that ended with a relative residual, which is no number where its scale left the range of them.
+    #[must_use]
+    pub fn not_converged(residual: f64, iterations: usize) -> Self {
+        if residual.is_finite() {
+            Self::NotConverged { residual, iterations }
+        } else {
+            Self::NotRepresentable { name: "the residual".into() }
+        }
+    }
+
     /// Stable identifier of the kind of failure, as in `summary.json`.
     #[must_use]
     pub fn code(&self) -> &'static str {

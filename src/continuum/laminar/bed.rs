@@ -195,7 +195,7 @@ impl Bed {
                 return Ok((mesh, packing, solved));
             }
         }
-        Err(SolveError::NotConverged { residual: moved, iterations: MOST })
+        Err(SolveError::not_converged(moved, MOST))
     }
 
     pub(super) fn whole_bed(&self, level: f64) -> SolveError {
@@ -208,7 +208,7 @@ impl Bed {
 }
 
 fn not_converged(error: single::NotConverged) -> SolveError {
-    SolveError::NotConverged { residual: error.residual, iterations: error.iterations }
+    SolveError::not_converged(error.residual, error.iterations)
 }
 
 impl Solution {

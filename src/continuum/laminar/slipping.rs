@@ -111,7 +111,7 @@ impl Bed {
             let tolerance = if self.dilation.is_some() && missed > settled { 1e-3 * missed } else { 0.0 };
             let solved = self
                 .with(mesh, &packing, h_c, |coupled| coupled.creeping(&from, regularisation, tolerance))
-                .map_err(|e| SolveError::NotConverged { residual: e.residual, iterations: e.iterations })?;
+                .map_err(|e| SolveError::not_converged(e.residual, e.iterations))?;
             let rates: Vec<f64> =
                 (0..packing.phi.len()).map(|k| (solved.w[k + 1] - solved.w[k]) / mesh.size(k)).collect();
             missed = Packing::of(self, mesh, &rates).change(&packing);
@@ -122,7 +122,7 @@ impl Bed {
             relaxation.step(gamma, rates);
             from = solved;
         }
-        Err(SolveError::NotConverged { residual: missed, iterations: MOST })
+        Err(SolveError::not_converged(missed, MOST))
     }
 
     /// Calls `run` with the coupled problem on `mesh`.

@@ -145,7 +145,7 @@ impl Column {
         let inflow = super::column::Setting::inflow(flow, phi_0, state.d(0), state.u(0) + state.w(0), globals);
         let totals = march(flow, &self.meshes, &inflow, height, |_| {});
         let lid = setting.lid_stress(flow, &totals, &inflow);
-        let near = |old: f64, new: f64| new.clamp((1.0 - CHANGE) * old, (1.0 + CHANGE) * old);
+        let near = |old: f64, new: f64| new.max((1.0 - CHANGE) * old).min((1.0 + CHANGE) * old);
         let weight = (state.tau_b + lid) / height;
         match (setting.tau_b, setting.sine, setting.lid) {
             (Some(_), Some(_), Lid::Solved) => {}

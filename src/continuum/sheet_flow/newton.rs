@@ -164,12 +164,12 @@ impl Column {
             *value = old + alpha * step;
             if i % STRIDE == 3 {
                 let most = mu_2 - (1.0 - TOWARDS_MU_2) * (mu_2 - old.abs());
-                *value = value.clamp(-most, most);
+                *value = value.max(-most).min(most);
             }
         }
         let limited = |value: f64, step: f64| {
             let (a, b) = (0.2 * value, 5.0 * value);
-            (value + alpha * step).clamp(a.min(b), a.max(b))
+            (value + alpha * step).max(a.min(b)).min(a.max(b))
         };
         state.tau_b = limited(from.tau_b, step.1[0]);
         state.sine = limited(from.sine, step.1[1]).min(0.99);

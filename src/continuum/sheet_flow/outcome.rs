@@ -24,12 +24,22 @@ const THICKNESS: Range = Range { variable: "sheet_thickness_m/d", min: 3.0, max:
 /// Sheet flow proper.
 const SHEET: Range = Range { variable: "shields", min: 0.5, max: f64::INFINITY };
 
+/// Scaled numbers from which on products of a few of them overflow.
+const LARGEST: f64 = 1e60;
+
 /// Solves the flow on `cells` cells.
 ///
 /// # Errors
 /// Why there is no steady sheet flow over a bed at rest, or why the method did not find it.
 pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let (flow, setting) = (Flow::scaled(sheet), Setting::scaled(sheet));
+    let scaled = [setting.height, setting.level, flow.delta, flow.nu, flow.lambda, flow.cut];
+    let given = [setting.tau_b, setting.sine].into_iter().flatten();
+    // Not for a number that is none, either.
+    let representable = scaled.into_iter().chain(given).all(|x| x.abs() < LARGEST);
+    if !representable {
+        return Err(SolveError::NotRepresentable { name: "the flow in units of its grains".into() }.into());
+    }
     let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
     let solved = match sheet.method {
         _ if stopped => Err(Stalled::new(f64::INFINITY, 0)),
@@ -92,7 +102,7 @@ fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled)
             return SolveError::NoStaticBed { drive, limit: flow.friction.mu_s * cosine };
         }
     }
-    SolveError::NotConverged { residual: stalled.residual, iterations: stalled.iterations }
+    SolveError::not_converged(stalled.residual, stalled.iterations)
 }
 
 /// Refuses a solution of the equations that is none of the flow.

@@ -72,7 +72,7 @@ impl Column {
             let total = tau_b + sine * depth + flow.fluid_weight(sine) * depth / MEAN_PHI;
             let r = (law.mu_s + friction * (law.mu_2 - law.mu_s)).min(total / (cosine * depth));
             state.x[STRIDE * c + 3] = r;
-            state.x[STRIDE * c + 4] = (total - r * cosine * depth).clamp(0.0, total);
+            state.x[STRIDE * c + 4] = (total - r * cosine * depth).max(0.0).min(total);
             let node = (1.0 - m * mesh.nodes[c] / mobile).max(0.0);
             // The slip that carries the friction of the grains.
             let push = 0.5 * law.mu_s;
