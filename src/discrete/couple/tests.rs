@@ -2,7 +2,7 @@
 
 use super::exchange::Exchange;
 use super::record::Record;
-use super::run::{HalfWay, Run, level, relief, resume};
+use super::run::{HalfWay, Run, gravity, level, relief, resume};
 use super::{Felt, run};
 use crate::case::grain_tables::Bottom;
 use crate::closures::contact::{LinearSpring, Tension};
@@ -100,6 +100,77 @@ fn the_slope_of_the_drag_is_its_derivative() {
         assert_relative_eq!(at(u).slope, numerical, max_relative = 1e-7);
     }
     assert!(at(0.28).force[0].abs() < 1e-15);
+}
+
+#[test]
+fn the_whole_weight_pulls_along_the_flow_and_the_submerged_one_normal_to_it() {
+    let [x, y, z] = gravity(&flow());
+    let cosine = 1.0 / 1.01_f64.sqrt();
+    assert_relative_eq!(x, 9.81 * 0.1 * cosine, max_relative = 1e-14);
+    assert_relative_eq!(z, -9.81 * 0.6 * cosine, max_relative = 1e-14);
+    assert_eq!(y, 0.0);
+}
+
+#[test]
+fn there_is_no_drag_above_the_surface() {
+    let law = DallavalleGrain { constant: 0.4, exponent: 3.1 };
+    let mut felt = Felt::new(law, law.viscous(1e-6, D), 4, D, 1);
+    felt.velocity[..4].fill(1.0);
+    felt.size[..4].fill(law.size(0.0, 1000.0, D));
+    let at = |z: f64| felt.drag(0, z, [0.0; 3]).force[0];
+    assert!(at(3.99 * D) > 0.0 && at(-0.2 * D) > 0.0);
+    assert_eq!((at(4.01 * D), at(1e3 * D)), (0.0, 0.0));
+}
+
+#[test]
+fn what_the_grains_are_averaged_to_is_exact() {
+    let case = flow();
+    let moving = |n: usize| {
+        let at = [2.0 * (n % 3) as f64 * D, 2.0 * (n / 3) as f64 * D, 0.77 * D];
+        Grain { velocity: [0.1 * n as f64, 0.0, 0.0], ..Grain::at_rest(at, 0.5 * D, 2500.0) }
+    };
+    let grains: Vec<Grain> = (0..9).map(moving).collect();
+    let domain = Domain { periods: [Some(6.0 * D), Some(6.0 * D)], walls: Vec::new() };
+    let engine =
+        Engine::new(&grains, domain, law(&case.bed.contact).unwrap(), Settings::new(1e-4, [0.0; 3], D), 1).unwrap();
+    let mut exchange = Exchange::new(&case, 4.0 * D, 9).unwrap();
+    exchange.look(&engine, 0.0);
+    let (h, area, pi) = (exchange.cell_height(), 36.0 * D * D, std::f64::consts::PI);
+    let (phi, volume) = (exchange.phi(), pi / 6.0 * D.powi(3));
+    assert_relative_eq!(phi.iter().sum::<f64>() * h * area, 9.0 * volume, max_relative = 1e-12);
+    assert_relative_eq!(exchange.rate(), volume * 3.6 / area, max_relative = 1e-12);
+    // Within a cell the section is a parabola: Simpson's rule is exact.
+    let section = |z: f64| 9.0 * pi * (0.25 * D * D - (z - 0.77 * D).powi(2));
+    for i in (0..phi.len()).filter(|&i| i as f64 * h > 0.27 * D && (i + 1) as f64 * h < 1.27 * D) {
+        let [low, middle, high] = [0.0, 0.5, 1.0].map(|x| section((i as f64 + x) * h));
+        assert_relative_eq!(phi[i], (low + 4.0 * middle + high) / 6.0 / area, max_relative = 1e-10);
+    }
+}
+
+#[test]
+fn eddies_turn_over_with_the_water_and_differ_from_grain_to_grain() {
+    let case = flow();
+    let fixed = relief(&case);
+    let what = Deposit { bed: &case.bed, fixed: Some(&fixed), name: &[0; 32] };
+    let Ok(ControlFlow::Continue(engine)) = deposit(what, None, &mut Quiet) else {
+        panic!("the bed does not rest");
+    };
+    let mut run = Run::begin(&case, engine).unwrap();
+    let [_, depth, speed] = run.water();
+    assert!(depth > 0.5 * D && depth < 6.0 * D && speed > 0.05, "{depth} {speed}");
+    let mut eddies = || {
+        run.stir();
+        assert_eq!(run.turn, (depth / speed / run.engine.settings().dt).round() as u64);
+        let carried: Vec<f64> = run.exchange.felt.carried().collect();
+        carried.chunks(4).map(|c| [c[0], c[1], c[2]]).collect::<Vec<_>>()
+    };
+    let (first, second) = (eddies(), eddies());
+    let moved = |e: &[f64; 3]| e[0] != 0.0;
+    assert!(first.iter().filter(|e| moved(e)).count() > 30);
+    for (i, (a, b)) in first.iter().zip(&second).enumerate().filter(|(_, (a, b))| moved(a) && moved(b)) {
+        assert!(a != b && first[..i].iter().all(|c| c != a), "grain {i} has the eddy of another, or the former one");
+        assert_eq!((a[1], b[1]), (0.0, 0.0));
+    }
 }
 
 #[test]
