@@ -139,6 +139,10 @@ fn what_the_grains_are_averaged_to_is_exact() {
     let (phi, volume) = (exchange.phi(), pi / 6.0 * D.powi(3));
     assert_relative_eq!(phi.iter().sum::<f64>() * h * area, 9.0 * volume, max_relative = 1e-12);
     assert_relative_eq!(exchange.rate(), volume * 3.6 / area, max_relative = 1e-12);
+    let mut shallow = Exchange::new(&case, D, 9).unwrap();
+    shallow.look(&engine, 0.0);
+    assert!(shallow.phi().iter().sum::<f64>() * shallow.cell_height() * area < 8.9 * volume);
+    assert_eq!(shallow.rate(), exchange.rate(), "a grain counts as a whole, whatever of it is under water");
     // Within a cell the section is a parabola: Simpson's rule is exact.
     let section = |z: f64| 9.0 * pi * (0.25 * D * D - (z - 0.77 * D).powi(2));
     for i in (0..phi.len()).filter(|&i| i as f64 * h > 0.27 * D && (i + 1) as f64 * h < 1.27 * D) {
@@ -242,7 +246,18 @@ fn what_the_fluid_loses_the_grains_get() {
         for _ in 0..100 {
             engine.step(&exchange.felt).unwrap();
         }
+        let inertia = |e: &Exchange| {
+            let cells = e.phi().iter().zip(e.column.velocity());
+            cells.map(|(phi, u)| 1000.0 * (1.0 - phi) * e.cell_height() * u).sum::<f64>()
+        };
+        let (before, net) = (inertia(&exchange), exchange.totals[0].total());
         exchange.advance(1e-2, 1).unwrap();
+        // What drives the fluid, less what the bottom holds back and what it lost to the grains.
+        let slope = 0.1 / 1.01_f64.sqrt();
+        let water: f64 = exchange.phi().iter().map(|phi| (1.0 - phi) * exchange.cell_height()).sum();
+        let bottom = exchange.column.tau_viscous()[0] + exchange.column.tau_reynolds()[0];
+        let impulse = 1e-2 * (1000.0 * 9.81 * slope * water - bottom) - (exchange.totals[0].total() - net);
+        assert!((inertia(&exchange) - before - impulse).abs() < 1e-9 * before, "{impulse}");
     }
     exchange.look(&engine, dt);
     assert!(exchange.defect().abs() < 1e-12, "{}", exchange.defect());
@@ -321,6 +336,10 @@ fn a_flow_over_a_small_bed_carries_grains_and_closes_its_balances() {
     let phi: f64 = profile.get(&q::PHI).unwrap().iter().flatten().sum::<f64>() * (z[1] - z[0]);
     let whole = 108.0 * std::f64::consts::PI / 6.0 * D / 36.0;
     assert!(phi > 0.98 * whole && phi < 1.2 * whole, "{phi} {whole}");
+    // The flux in the moments of the samples, the rate in all periods.
+    let flux: f64 = profile.get(&q::FLUX).unwrap().iter().flatten().sum::<f64>() * (z[1] - z[0]);
+    let ratio = result(&q::TRANSPORT_RATE) / flux;
+    assert!((0.75..1.33).contains(&ratio), "{ratio}");
 }
 
 #[test]
@@ -342,6 +361,10 @@ fn the_level_of_a_bed_is_where_half_of_it_is_left() {
     let phi: Vec<f64> = (0..300).map(|i| 0.6 / (1.0 + (0.1 * (f64::from(i) - 150.0)).exp())).collect();
     assert!((level(&phi, 1.0, 30.0) - 150.0).abs() <= 1.0);
     assert_eq!(level(&[0.0; 9], 1.0, 3.0), 0.0);
+    // A bed of one and a half diameters, and two cells of a grain that flies over it.
+    let thin = |i: usize| if i < 15 || (40..42).contains(&i) { 0.6 } else { 0.0 };
+    let phi: Vec<f64> = (0..100).map(thin).collect();
+    assert!((level(&phi, 1.0, 10.0) - 15.0).abs() <= 1.0);
 }
 
 #[test]
