@@ -78,6 +78,8 @@ impl Focus {
             | Model::BinghamPlane(_)
             | Model::BagnoldFilm(_)
             | Model::LogLaw(_)
+            | Model::Duct(_)
+            | Model::Cavity(_)
             | Model::Grains(_)
             | Model::Coupled(_)
             | Model::Impact(_)

@@ -16,6 +16,7 @@ mod never_panics;
 mod paths;
 mod report;
 mod schema;
+mod section;
 mod sheet;
 mod sheet_statements;
 mod studies;
