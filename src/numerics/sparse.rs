@@ -72,6 +72,14 @@ impl Pattern {
         self.rows.len()
     }
 
+    /// Row and column of each entry, in the order of the values.
+    pub fn places(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        (0..self.size()).flat_map(|j| {
+            let (from, to) = (self.starts[j] as usize, self.starts[j + 1] as usize);
+            self.rows[from..to].iter().map(move |i| (*i as usize, j))
+        })
+    }
+
     /// Place of the entry of row `i` and column `j`, or of `j` and `i`, among the values.
     #[must_use]
     pub fn slot(&self, i: u32, j: u32) -> Option<usize> {

@@ -113,9 +113,7 @@ impl Problem {
                 (sheet::sheet_flow(scene, case.model, &mut faults).map(Model::SheetFlow), scene.grid.cells)
             }
             Scene::Duct(scene) => (section::duct(scene, &mut faults).map(Model::Duct), scene.grid.cells),
-            Scene::DuctBed(scene) => {
-                (section::bed(scene, case.model, &mut faults).map(Model::Duct), scene.grid.cells)
-            }
+            Scene::DuctBed(scene) => (section::bed(scene, case.model, &mut faults).map(Model::Duct), scene.grid.cells),
             Scene::Cavity(scene) => (section::cavity(scene, &mut faults).map(Model::Cavity), scene.grid.cells),
             Scene::GrainsBed(scene) => {
                 let bed = grains::bed(scene, &mut faults);

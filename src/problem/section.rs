@@ -139,8 +139,7 @@ pub(super) fn duct(scene: &Duct, faults: &mut Faults) -> Option<DuctFlow> {
         regularisation: Regularisation::EXACT,
         solver: solver?,
     };
-    duct.regularisation =
-        Regularisation { law: scene.regularisation.law, lambda: size?.to_scaled(duct.shear_scale()) };
+    duct.regularisation = Regularisation { law: scene.regularisation.law, lambda: size?.to_scaled(duct.shear_scale()) };
     Some(duct)
 }
 
@@ -165,8 +164,7 @@ pub(super) fn bed(scene: &DuctBed, model: &str, faults: &mut Faults) -> Option<D
         regularisation: Regularisation::EXACT,
         solver: solver?,
     };
-    duct.regularisation =
-        Regularisation { law: scene.regularisation.law, lambda: size?.to_scaled(duct.shear_scale()) };
+    duct.regularisation = Regularisation { law: scene.regularisation.law, lambda: size?.to_scaled(duct.shear_scale()) };
     Some(duct)
 }
 

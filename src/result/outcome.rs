@@ -238,7 +238,8 @@ impl SolveError {
                 "a value of the case is far from those of any flow: case.toml has all of them in SI".into()
             }
             Self::Unsettled { .. } => {
-                "take model.method = \"newton\", raise solver.iterations or solver.tolerance, or change grid.cells".into()
+                "take model.method = \"newton\", raise solver.iterations or solver.tolerance, or change grid.cells"
+                    .into()
             }
             Self::Grains { hint, .. } => (*hint).into(),
             Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {

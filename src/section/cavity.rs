@@ -102,7 +102,8 @@ impl Cavity {
     fn assemble(&mut self, bn: f64, i: usize, j: usize, known: [u32; KNOWN]) {
         let weight = (self.y[i + 1] - self.y[i]) * (self.z[j + 1] - self.z[j]);
         let stretch = self.stretch(i, j);
-        let forms = [stretch, self.shear(i, j, 0, 0), self.shear(i, j, 1, 0), self.shear(i, j, 0, 1), self.shear(i, j, 1, 1)];
+        let forms =
+            [stretch, self.shear(i, j, 0, 0), self.shear(i, j, 1, 0), self.shear(i, j, 0, 1), self.shear(i, j, 1, 1)];
         let strain = forms.map(|form| form.by_node);
         let offset = forms.map(|form| form.constant);
         let block = Block::new(known, &self.programme.pattern);

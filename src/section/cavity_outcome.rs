@@ -7,7 +7,6 @@ use serde_json::{Map, json};
 use super::cavity::Cavity;
 use super::field::Field;
 use super::newton::{Solved, Stalled};
-use super::programme::length;
 use super::{dual, newton};
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::problem::{CavityFlow, Method};
@@ -31,9 +30,7 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
     };
     let solved = match flow.solver.method {
         Method::Newton => newton::solve(&cavity.programme, law, &mut see),
-        Method::FirstOrder => {
-            dual::solve(&cavity.programme, flow.solver.tolerance, flow.solver.iterations, &mut see)
-        }
+        Method::FirstOrder => dual::solve(&cavity.programme, flow.solver.tolerance, flow.solver.iterations, &mut see),
     };
     let solved = match solved {
         Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
@@ -88,13 +85,12 @@ impl Cavity {
         (self.y.len(), self.z.len())
     }
 
-    /// Whether each cell is below the yield stress: the mean of its stress, all components.
+    /// Whether each cell is below the yield stress by the mean of its shear stresses: those of single nodes oscillate.
     fn unyielded(&self, solved: &Solved<5>) -> Vec<bool> {
         let points = &self.programme.points;
-        let stress = |k: usize| -> [f64; 5] {
-            std::array::from_fn(|d| points[k].carried * solved.q[k][d] + points[k].weight * solved.g[k][d])
-        };
-        (0..points.len()).map(|k| length(&stress(k)) < points[k].carried).collect()
+        let part = |k: usize, d: usize| points[k].carried * solved.q[k][d] + points[k].weight * solved.g[k][d];
+        let stress = |k: usize| part(k, 0).hypot(0.5 * (1..5).map(|d| part(k, d)).sum::<f64>());
+        (0..points.len()).map(|k| stress(k) < points[k].carried).collect()
     }
 
     /// Place and size of the largest magnitude of the stream function: top of the parabolas through the largest node and its
@@ -157,8 +153,14 @@ fn profile(flow: &CavityFlow, cavity: &Cavity, psi: &[f64]) -> Result<Profile, T
     }
     z.push(flow.h);
     u.push(Some(flow.lid));
-    let mut profile = Profile::new(z)?;
-    profile.push(&q::U_MIXTURE, u)?;
+    let rate = |k: usize| {
+        let (a, b) = (k.saturating_sub(1), (k + 1).min(z.len() - 1));
+        Some((u[b]? - u[a]?).abs() / (z[b] - z[a]))
+    };
+    let rates = (0..z.len()).map(rate).collect();
+    let mut profile = Profile::new(z.clone())?;
+    profile.push(&q::U_MIXTURE, u.clone())?;
+    profile.push(&q::SHEAR_RATE, rates)?;
     Ok(profile)
 }
 

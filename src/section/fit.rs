@@ -67,8 +67,9 @@ fn zero(points: &[(f64, f64); 4], a: f64, b: f64) -> Option<f64> {
 pub fn along(from: &[f64], line: &[f64], to: &[f64]) -> Vec<f64> {
     to.iter()
         .map(|x| {
-            let above = from.partition_point(|f| f < x).clamp(2, from.len() - 2);
-            let picks = above - 2..above + 2;
+            let picked = from.len().min(4);
+            let first = from.partition_point(|f| f < x).saturating_sub(2).min(from.len() - picked);
+            let picks = first..first + picked;
             picks
                 .clone()
                 .map(|i| {

@@ -114,7 +114,8 @@ impl Mesh {
                 // Towards the bed level from both sides, and towards the yield line.
                 let mut from = 0.0;
                 if let Some(line) = line {
-                    from = shape.row_at(line[i]);
+                    // Rows keep a height where the surface nears the bottom or the bed level.
+                    from = shape.row_at(line[i].clamp(0.02 * level, 0.98 * level));
                     s.extend(graded(0.0, from, still_rows, layer).into_iter().skip(1));
                 }
                 s.extend(towards(from, at, bed_rows - still_rows).into_iter().skip(1));

@@ -177,8 +177,7 @@ impl<const D: usize, const N: usize> Iterate<'_, D, N> {
             let stiff = tangent(law, g, q);
             let m = law.effective(length(g)).0;
             let dg: [f64; D] = std::array::from_fn(|d| new[d] - g[d]);
-            let next: [f64; D] =
-                std::array::from_fn(|a| g[a] / m + (0..D).map(|b| stiff[a][b] * dg[b]).sum::<f64>());
+            let next: [f64; D] = std::array::from_fn(|a| g[a] / m + (0..D).map(|b| stiff[a][b] * dg[b]).sum::<f64>());
             let size = length(&next).max(1.0);
             (*q, *g) = (next.map(|a| a / size), new);
         }

@@ -10,12 +10,29 @@ use super::newton::{self, Stalled};
 use super::numbers::Numbers;
 use super::solve::Solution;
 use crate::closures::regularisation::{Regularisation, Smoothing};
-use crate::problem::{Contents, DuctFlow, Outline};
+use crate::problem::{Contents, DuctFlow, Method, Outline};
 use crate::result::{
     Balance, Failure, Outcome, Profile, Results, Series, Snapshot, SolveError, Status, TableError, Validity, Watch,
     quantity as q,
 };
 use crate::units::significant;
+
+impl Stalled {
+    /// The reason in SI; `shear` is the unit of the shear rate [1/s].
+    #[must_use]
+    pub fn into_error(self, method: Method, shear: f64) -> SolveError {
+        match self {
+            Self::Unsettled { change, iterations, lambda } if change.is_finite() => SolveError::Unsettled {
+                method: if method == Method::Newton { "newton" } else { "first-order" },
+                change,
+                iterations,
+                lambda_1_s: lambda * shear,
+            },
+            Self::Unsettled { .. } => SolveError::NotRepresentable { name: "the velocity".into() },
+            Self::Stopped | Self::Matrix(_) => SolveError::NotRepresentable { name: "the matrix".into() },
+        }
+    }
+}
 
 impl Duct {
     /// The duct in the units of the model.

@@ -9,11 +9,10 @@ use super::newton::{Solved, Stalled};
 use super::{dual, newton};
 use crate::closures::regularisation::Regularisation;
 use crate::problem::{Method, Outline, SectionMethod};
-use crate::result::SolveError;
 
 /// Rows of the coarsest mesh on which the yield surface is looked for.
 const COARSEST: usize = 24;
-/// Turns of solving and dividing on each mesh below the last.
+/// Turns of solving and dividing on the coarsest mesh; on the others one is enough.
 const TURNS: usize = 3;
 
 /// A solved duct.
@@ -27,23 +26,6 @@ pub struct Solution {
     pub line: Option<Vec<f64>>,
     /// iterations on all meshes
     pub iterations: usize,
-}
-
-impl Stalled {
-    /// The reason in SI; `shear` is the unit of the shear rate [1/s].
-    #[must_use]
-    pub fn into_error(self, method: Method, shear: f64) -> SolveError {
-        match self {
-            Self::Unsettled { change, iterations, lambda } if change.is_finite() => SolveError::Unsettled {
-                method: if method == Method::Newton { "newton" } else { "first-order" },
-                change,
-                iterations,
-                lambda_1_s: lambda * shear,
-            },
-            Self::Unsettled { .. } => SolveError::NotRepresentable { name: "the velocity".into() },
-            Self::Stopped | Self::Matrix(_) => SolveError::NotRepresentable { name: "the matrix".into() },
-        }
-    }
 }
 
 impl Duct {
@@ -99,7 +81,7 @@ impl Duct {
         }
         let mut line: Option<(Vec<f64>, Vec<f64>)> = None;
         for (k, n) in meshes.iter().enumerate().rev() {
-            let turns = if k == 0 { 1 + usize::from(meshes.len() == 1) * TURNS } else { TURNS };
+            let turns = if k + 1 == meshes.len() { TURNS + usize::from(k == 0) } else { 1 };
             for turn in 0..turns {
                 let eta = Mesh::columns_at(self.columns(*n), how.finest);
                 let here = line.as_ref().map(|(from, line)| along(from, line, &eta));

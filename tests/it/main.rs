@@ -17,6 +17,8 @@ mod paths;
 mod report;
 mod schema;
 mod section;
+mod section_cavity;
+mod section_cone;
 mod sheet;
 mod sheet_statements;
 mod studies;
