@@ -201,7 +201,7 @@ impl Mesh {
 /// Nodes of a block in the order of their elimination: both halves first, then the side of elements between them.
 fn dissect(x: (usize, usize), z: (usize, usize), see: &mut impl FnMut(usize, usize)) {
     let (wide, high) = (x.1 - x.0, z.1 - z.0);
-    let middle = |(from, to): (usize, usize)| (from + to) / 2 & !1;
+    let middle = |(from, to): (usize, usize)| ((from + to) / 2) & !1;
     if wide.max(high) < 6 {
         (z.0..z.1).for_each(|j| (x.0..x.1).for_each(|i| see(i, j)));
     } else if wide >= high {
