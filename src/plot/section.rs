@@ -9,7 +9,7 @@ use crate::result::{Values, read_columns};
 /// Width or height of the picture, whichever is larger [px].
 const SIZE: f64 = 560.0;
 /// Most tiles along one direction.
-const TILES: usize = 96;
+const TILES: usize = 64;
 
 /// A grid of nodes with a velocity and the share that does not yield.
 struct Grid {

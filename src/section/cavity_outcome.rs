@@ -126,7 +126,14 @@ fn top(x: &[f64], f: &[f64; 3]) -> (f64, f64) {
 
 fn results(flow: &CavityFlow, cavity: &Cavity, solved: &Solved<5>, psi: &[f64], unyielded: &[bool]) -> Results {
     let (y, z, strength) = cavity.vortex(psi);
-    let area: f64 = cavity.programme.points.iter().zip(unyielded).filter(|(_, u)| **u).map(|(p, _)| p.weight).sum();
+    let area: f64 = cavity
+        .programme
+        .points
+        .iter()
+        .zip(unyielded)
+        .filter(|(_, u)| **u)
+        .map(|(p, _)| p.weight)
+        .fold(0.0, |sum, w| sum + w);
     let mut results = Results::default();
     results.set(&q::STREAM_MAX, strength);
     results.set(&q::VORTEX_Y, y * flow.h);

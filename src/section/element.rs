@@ -43,13 +43,14 @@ fn point(nodes: &[(f64, f64); 9], x: f64, t: f64, weight: f64) -> Point {
     let shape = std::array::from_fn(|k| nx[k % 3] * nt[k / 3]);
     let along_x: [f64; 9] = std::array::from_fn(|k| dx[k % 3] * nt[k / 3]);
     let along_t: [f64; 9] = std::array::from_fn(|k| nx[k % 3] * dt[k / 3]);
-    let sum = |d: &[f64; 9], at: fn(&(f64, f64)) -> f64| -> f64 { (0..9).map(|k| d[k] * at(&nodes[k])).sum() };
-    let (y, z): (fn(&(f64, f64)) -> f64, fn(&(f64, f64)) -> f64) = (|n| n.0, |n| n.1);
-    let (y_x, y_t, z_x, z_t) = (sum(&along_x, y), sum(&along_t, y), sum(&along_x, z), sum(&along_t, z));
+    let sum = |d: &[f64; 9]| -> (f64, f64) {
+        d.iter().zip(nodes).fold((0.0, 0.0), |(y, z), (d, node)| (y + d * node.0, z + d * node.1))
+    };
+    let ((y_x, z_x), (y_t, z_t), (_, height)) = (sum(&along_x), sum(&along_t), sum(&shape));
     let jacobian = y_x * z_t - y_t * z_x;
     let gradient = [
         std::array::from_fn(|k| (z_t * along_x[k] - z_x * along_t[k]) / jacobian),
         std::array::from_fn(|k| (y_x * along_t[k] - y_t * along_x[k]) / jacobian),
     ];
-    Point { weight: weight * jacobian, z: sum(&shape, z), shape, gradient }
+    Point { weight: weight * jacobian, z: height, shape, gradient }
 }

@@ -150,12 +150,12 @@ impl<const D: usize, const N: usize> Iterate<'_, D, N> {
             let mut local = [[0.0; N]; N];
             for ((point, g), q) in points.iter().zip(g).zip(q) {
                 let stiff = tangent(law, g, q);
-                for a in 0..D {
+                for (left, stiff) in point.strain.iter().zip(&stiff) {
                     // One row of (1 - m' sym(q n))/m B at a time.
                     let row: [f64; N] = std::array::from_fn(|j| {
-                        point.carried * (0..D).map(|b| stiff[a][b] * point.strain[b][j]).sum::<f64>()
+                        point.carried * stiff.iter().zip(&point.strain).map(|(s, b)| s * b[j]).sum::<f64>()
                     });
-                    for (i, left) in point.strain[a].iter().enumerate() {
+                    for (i, left) in left.iter().enumerate() {
                         for j in 0..=i {
                             local[i][j] += left * row[j];
                         }
