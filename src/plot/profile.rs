@@ -19,7 +19,7 @@ pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
         scene.stresses(),
         scene.single("solid fraction φ", &quantity::PHI, GRAINS),
         scene.single("flux φuₚ", &quantity::FLUX, GRAINS),
-        scene.single("granular temperature", &quantity::GRANULAR_TEMPERATURE, GRAINS),
+        scene.single("temperature T", &quantity::GRANULAR_TEMPERATURE, GRAINS),
     ]
     .into_iter()
     .flatten()
