@@ -215,6 +215,8 @@ fn trust(summary: &Summary) -> String {
 /// Numbers of the closing lines, a line each, named by the first.
 const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::SHIELDS, &quantity::U_STAR],
+    &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
+    &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
     &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],
     &[&quantity::BINGHAM, &quantity::HALF_PLUG, &quantity::PLUG_VELOCITY],
