@@ -72,6 +72,9 @@ impl Fault {
             }
             Self::Floating { .. } => Some("grains.density must exceed fluid.density".into()),
             Self::IterationNeedsCreep => Some("give [regularisation] a law and a lambda, or take newton".into()),
+            Self::NotWhole => {
+                Some("remove it: `--set grid.along=`; model.form = \"mixed\" and method = \"newton\" have it".into())
+            }
             Self::NoWidth => Some("remove it, or set flow.shape = \"rectangle\"".into()),
             Self::Slender { .. } => Some("shape = \"planes\" is the limit of a wide section".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),

@@ -247,6 +247,9 @@ pub enum Fault {
     /// The first-order method with a regularisation.
     #[error("the first-order method has the exact yield only")]
     DualIsExact,
+    /// The whole duct for a model that has only its section.
+    #[error("the whole duct has one velocity, walls on all sides and Newton's method only")]
+    NotWhole,
     /// A law whose packing is looser than that of the bed.
     #[error("phi_max = {phi_max} of {law} must reach {bed}, that of the bed at rest (closures.dilatancy)")]
     PackedBeyond {
@@ -336,6 +339,7 @@ impl Fault {
             Self::NoWidth => "no-width",
             Self::Slender { .. } => "slender",
             Self::DualIsExact => "dual-is-exact",
+            Self::NotWhole => "not-whole",
             Self::PackedBeyond { .. } => "packed-beyond",
             Self::IterationNeedsCreep => "iteration-needs-creep",
             Self::LawMismatch { .. } => "law-mismatch",

@@ -186,11 +186,15 @@ pub struct SectionGrid {
     #[serde(default = "one")]
     #[schemars(extend("x-unit" = "1", "minimum" = 0.001, "maximum" = 1.0))]
     pub finest: f64,
+    /// Elements along one height of the flow: the whole three-dimensional duct beside its section. Left out, the section alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 2, "maximum" = 64))]
+    pub along: Option<usize>,
 }
 
 impl Default for SectionGrid {
     fn default() -> Self {
-        Self { cells: cells(), yield_row: true, finest: one() }
+        Self { cells: cells(), yield_row: true, finest: one(), along: None }
     }
 }
 

@@ -195,7 +195,22 @@ fn draw(
     if !png {
         return Ok(Vec::new());
     }
-    draw_png(place, shown, &figures)
+    let mut drawn = draw_png(place, shown, &figures)?;
+    if let Some(map) = map(place, summary) {
+        drawn.push(draw_one(place, shown, "section", |path| plot::map_png(&map, path))?);
+    }
+    Ok(drawn)
+}
+
+/// The map of a run that has a section.
+fn map(place: &Path, summary: &Summary) -> Option<plot::Map> {
+    let get = |quantity: &quantity::Quantity| summary.results.get(quantity.name);
+    let table = fs::File::open(place.join("section.csv")).ok().map(BufReader::new)?;
+    let largest = get(&quantity::U_MAX).unwrap_or(1.0);
+    let (unit, scale) = if largest < 0.1 { ("mm/s", 1e-3) } else { ("m/s", 1.0) };
+    let half = get(&quantity::FLOW_RATE).is_some();
+    let panel = plot::section_map(table, half, get(&quantity::BED_LEVEL), ("", scale))?;
+    Some(plot::Map { panels: vec![panel], colours: plot::Axis::linear("velocity", unit) })
 }
 
 /// The picture of a run that has a table for one, with its caption.
@@ -216,22 +231,25 @@ fn picture(place: &Path, summary: &Summary) -> Option<(String, &'static str)> {
 pub(super) fn draw_png(place: &Path, shown: &Path, figures: &[Figure]) -> Result<Vec<PathBuf>, OutputError> {
     let folder = place.join("figures");
     fs::create_dir_all(&folder).map_err(|error| OutputError::Interrupted { path: folder.clone(), error })?;
-    figures
-        .iter()
-        .map(|figure| {
-            let name = format!("figures/{}.png", figure.stem);
-            // Drawn beside and renamed, as every file: the ending tells the format.
-            let partial = folder.join(format!(".{}.part-{}.png", figure.stem, process::id()));
-            let drawn = plot::png(figure, &partial)
-                .map_err(io::Error::other)
-                .and_then(|()| fs::rename(&partial, place.join(&name)));
-            if let Err(error) = drawn {
-                let _ = fs::remove_file(&partial);
-                return Err(OutputError::Interrupted { path: place.join(&name), error });
-            }
-            Ok(shown.join(&name))
-        })
-        .collect()
+    figures.iter().map(|figure| draw_one(place, shown, &figure.stem, |path| plot::png(figure, path))).collect()
+}
+
+/// Draws one picture into `place`/figures and returns what its path is called.
+fn draw_one(
+    place: &Path,
+    shown: &Path,
+    stem: &str,
+    draw: impl FnOnce(&Path) -> Result<(), plot::PlotError>,
+) -> Result<PathBuf, OutputError> {
+    let name = format!("figures/{stem}.png");
+    // Drawn beside and renamed, as every file: the ending tells the format.
+    let partial = place.join("figures").join(format!(".{stem}.part-{}.png", process::id()));
+    let drawn = draw(&partial).map_err(io::Error::other).and_then(|()| fs::rename(&partial, place.join(&name)));
+    if let Err(error) = drawn {
+        let _ = fs::remove_file(&partial);
+        return Err(OutputError::Interrupted { path: place.join(&name), error });
+    }
+    Ok(shown.join(&name))
 }
 
 /// The summary and the profile of a run, from its folder.

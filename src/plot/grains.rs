@@ -80,11 +80,17 @@ pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64)) -> St
 
 /// Colour of a share of the largest velocity.
 pub(super) fn colour(share: f64) -> String {
+    let [r, g, b] = shade(share);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+/// The same in red, green and blue.
+pub(super) fn shade(share: f64) -> [u8; 3] {
     let at = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
     let i = (at as usize).min(COLOURS.len() - 2);
     let part = at - i as f64;
     let mix = |k: usize| (COLOURS[i][k] + part * (COLOURS[i + 1][k] - COLOURS[i][k])).round() as u8;
-    format!("#{:02x}{:02x}{:02x}", mix(0), mix(1), mix(2))
+    [mix(0), mix(1), mix(2)]
 }
 
 #[cfg(test)]

@@ -11,9 +11,9 @@ use super::layout::Layout;
 use super::{Figure, PlotError, theme};
 
 /// Width of the file [pixels].
-const WIDTH: u32 = 1600;
+pub(super) const WIDTH: u32 = 1600;
 /// Pixels drawn per pixel written, in each direction.
-const FINER: u32 = 3;
+pub(super) const FINER: u32 = 3;
 
 /// Writes `figure` in the light theme as a PNG file 1600 pixels wide; `path` ends in `.png`.
 ///
@@ -42,7 +42,7 @@ pub fn png(figure: &Figure, path: &Path) -> Result<(), PlotError> {
 }
 
 /// Means over squares of `n` by `n` pixels of three bytes, of an image `width` pixels wide.
-fn averaged(fine: &[u8], width: usize, n: usize) -> Vec<u8> {
+pub(super) fn averaged(fine: &[u8], width: usize, n: usize) -> Vec<u8> {
     let mut sums = vec![0_u32; 3 * (width / n)];
     let mut small = Vec::with_capacity(fine.len() / (n * n));
     for band in fine.chunks_exact(3 * width * n) {

@@ -1,9 +1,12 @@
 //! A map of a section: velocity in colour, what does not yield hatched by its outline, the bed level.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::io::BufRead;
 
 use super::grains::{colour, scale_bar};
+use super::map::{MapPanel, Place, Trail};
+use super::{Axis, Dash};
 use crate::result::{Values, read_columns};
 
 /// Width or height of the picture, whichever is larger [px].
@@ -11,12 +14,14 @@ const SIZE: f64 = 560.0;
 /// Most tiles along one direction.
 const TILES: usize = 64;
 
-/// A grid of nodes with a velocity and the share that does not yield.
+/// A grid of nodes with a velocity, and a measure that is above 0.5 where the material does not yield.
 struct Grid {
     across: usize,
-    places: Vec<(f64, f64)>,
+    places: Vec<Place>,
     speed: Vec<f64>,
     still: Vec<f64>,
+    /// velocity along both axes
+    vectors: Option<(Vec<f64>, Vec<f64>)>,
 }
 
 /// The map from the columns column, row, y_m, z_m, u_mixture_m_s or speed_m_s, unyielded; `symmetric` adds the other half of
@@ -67,7 +72,116 @@ pub fn section_svg(table: impl BufRead, symmetric: bool, bed: Option<f64>) -> Op
     Some(svg + "</svg>\n")
 }
 
+/// The same as a panel of a map, in millimetres where the section is small, the velocity in units of `speed` [m/s].
+#[must_use]
+pub fn section_map(
+    table: impl BufRead,
+    symmetric: bool,
+    bed: Option<f64>,
+    (title, speed): (&str, f64),
+) -> Option<MapPanel> {
+    let grid = Grid::read(&read_columns(table).ok()?)?;
+    let high = |of: &dyn Fn(&Place) -> f64| grid.places.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+    let (right, top) = (high(&|p| p.0), high(&|p| p.1));
+    let (unit, scale) = if top < 0.5 { ("mm", 1e3) } else { ("m", 1.0) };
+    let sides: &[f64] = if symmetric { &[1.0, -1.0] } else { &[1.0] };
+    let left = if symmetric { -right } else { 0.0 };
+    let axis =
+        |name: &str, low: f64, high: f64| Axis { ends: Some((scale * low, scale * high)), ..Axis::linear(name, unit) };
+    let at = |side: f64, (y, z): Place| (side * scale * y, scale * z);
+    let both = |points: &[Place], dash: Dash, bold: bool| -> Vec<Trail> {
+        let mirrored = |side: &f64| points.iter().map(|p| at(*side, *p)).collect();
+        sides.iter().map(|side| Trail { points: mirrored(side), dash, bold }).collect()
+    };
+    let mut trails: Vec<Trail> = joined(grid.outline()).iter().flat_map(|l| both(l, Dash::Solid, true)).collect();
+    if let Some(level) = bed {
+        let ends = grid.places.iter().filter(|p| (p.1 - level).abs() < 1e-9 * top).fold(0.0, |m: f64, p| m.max(p.0));
+        trails.extend(both(&[(0.0, level), (ends, level)], Dash::Dashed, false));
+    }
+    let corner = |side: f64, n: usize| (at(side, grid.places[n]), grid.speed[n] / speed);
+    let mut triangles = Vec::new();
+    for side in sides {
+        triangles.extend(grid.triangles().map(|nodes| nodes.map(|n| corner(*side, n))));
+    }
+    Some(MapPanel {
+        title: title.into(),
+        x: axis("y", left, right),
+        y: axis("z", 0.0, top),
+        triangles,
+        arrows: grid.arrows().into_iter().map(|(a, b)| (at(1.0, a), at(1.0, b))).collect(),
+        trails,
+    })
+}
+
+/// Pieces of lines, joined where they meet.
+fn joined(pieces: Vec<(Place, Place)>) -> Vec<Vec<Place>> {
+    let key = |p: Place| (p.0.to_bits(), p.1.to_bits());
+    let mut ends: BTreeMap<(u64, u64), Vec<usize>> = BTreeMap::new();
+    for (k, (a, b)) in pieces.iter().enumerate().filter(|(_, (a, b))| a != b) {
+        ends.entry(key(*a)).or_default().push(k);
+        ends.entry(key(*b)).or_default().push(k);
+    }
+    let mut used = vec![false; pieces.len()];
+    let mut lines = Vec::new();
+    // Lines with a loose end first, rings after them.
+    let loose = |k: usize| [pieces[k].0, pieces[k].1].iter().any(|p| ends.get(&key(*p)).is_none_or(|e| e.len() == 1));
+    let order = (0..pieces.len()).filter(|k| loose(*k)).chain(0..pieces.len());
+    for k in order {
+        if used[k] || pieces[k].0 == pieces[k].1 {
+            continue;
+        }
+        used[k] = true;
+        let (mut a, mut b) = pieces[k];
+        if ends.get(&key(b)).is_none_or(|e| e.len() == 1) {
+            (a, b) = (b, a);
+        }
+        let mut line = vec![a, b];
+        while let Some(next) = ends.get(&key(b)).and_then(|e| e.iter().find(|k| !used[**k])) {
+            used[*next] = true;
+            let (c, d) = pieces[*next];
+            b = if c == b { d } else { c };
+            line.push(b);
+        }
+        lines.push(line);
+    }
+    lines
+}
+
 impl Grid {
+    /// Two triangles of nodes in each tile of the grid.
+    fn triangles(&self) -> impl Iterator<Item = [usize; 3]> + '_ {
+        let across = self.across;
+        (0..self.up() - 1).flat_map(move |j| {
+            (0..across - 1).flat_map(move |i| {
+                let n = j * across + i;
+                [[n, n + 1, n + across + 1], [n, n + across + 1, n + across]]
+            })
+        })
+    }
+
+    /// Velocities on a coarse raster, the longest as long as its meshes are wide.
+    fn arrows(&self) -> Vec<(Place, Place)> {
+        const RASTER: usize = 16;
+        let Some((u, w)) = &self.vectors else { return Vec::new() };
+        let (columns, rows) = (self.spread(RASTER, false), self.spread(RASTER, true));
+        let most = u.iter().zip(w).fold(0.0_f64, |m, (u, w)| m.max(u.hypot(*w)));
+        let top = self.places.iter().fold(0.0_f64, |m, p| m.max(p.1));
+        let scale = 1.6 * top / (RASTER as f64 * most);
+        let nodes = rows.iter().flat_map(|j| columns.iter().map(move |i| j * self.across + i));
+        nodes.map(|n| (self.places[n], (self.places[n].0 + scale * u[n], self.places[n].1 + scale * w[n]))).collect()
+    }
+
+    /// The inner lines of nodes nearest to `n` equal spaces.
+    fn spread(&self, n: usize, upwards: bool) -> Vec<usize> {
+        let count = if upwards { self.up() } else { self.across };
+        let at = |k: usize| if upwards { self.places[k * self.across].1 } else { self.places[k].0 };
+        let near =
+            |x: f64| (1..count - 1).min_by(|a, b| (at(*a) - x).abs().total_cmp(&(at(*b) - x).abs())).unwrap_or(1);
+        let mut lines: Vec<usize> = (0..n).map(|k| near(at(count - 1) * (k as f64 + 0.5) / n as f64)).collect();
+        lines.dedup();
+        lines
+    }
+
     fn read(columns: &[(String, Values)]) -> Option<Self> {
         let column = |name: &str| -> Option<Vec<f64>> {
             columns.iter().find(|(n, _)| n == name)?.1.iter().copied().collect::<Option<Vec<f64>>>()
@@ -76,8 +190,13 @@ impl Grid {
         let speed = column("u_mixture_m_s").or_else(|| column("speed_m_s"))?;
         let across = column_of.iter().skip(1).position(|i| *i == 0.0)? + 1;
         let whole = speed.len().is_multiple_of(across) && across > 2 && speed.len() > 2 * across;
-        let still = column("unyielded")?;
-        whole.then(|| Self { across, places: y.into_iter().zip(z).collect(), speed, still })
+        // The stress is smooth where the share of elements makes steps.
+        let still = match column("stress_over_yield") {
+            Some(stress) => stress.into_iter().map(|s| 1.5 - s).collect(),
+            None => column("unyielded")?,
+        };
+        let vectors = column("u_m_s").zip(column("w_m_s"));
+        whole.then(|| Self { across, places: y.into_iter().zip(z).collect(), speed, still, vectors })
     }
 
     fn up(&self) -> usize {
@@ -108,28 +227,23 @@ impl Grid {
     }
 
     /// Pieces of the line on which half of what is around does not yield: along the sides of triangles of nodes.
-    fn outline(&self) -> Vec<((f64, f64), (f64, f64))> {
+    fn outline(&self) -> Vec<(Place, Place)> {
         const HALF: f64 = 0.5;
         let mut pieces = Vec::new();
-        for j in 0..self.up() - 1 {
-            for i in 0..self.across - 1 {
-                let n = j * self.across + i;
-                for triangle in [[n, n + 1, n + self.across + 1], [n, n + self.across + 1, n + self.across]] {
-                    let crossing = |a: usize, b: usize| {
-                        let (fa, fb) = (self.still[a] - HALF, self.still[b] - HALF);
-                        ((fa < 0.0) != (fb < 0.0)).then(|| {
-                            let t = fa / (fa - fb);
-                            let (p, q) = (self.places[a], self.places[b]);
-                            (p.0 + t * (q.0 - p.0), p.1 + t * (q.1 - p.1))
-                        })
-                    };
-                    let [a, b, c] = triangle;
-                    let ends: Vec<(f64, f64)> =
-                        [crossing(a, b), crossing(b, c), crossing(c, a)].into_iter().flatten().collect();
-                    if let [from, to] = ends[..] {
-                        pieces.push((from, to));
-                    }
-                }
+        for [a, b, c] in self.triangles() {
+            let crossing = |a: usize, b: usize| {
+                // One order of both ends, so that neighbours find the same place.
+                let (a, b) = (a.min(b), a.max(b));
+                let (fa, fb) = (self.still[a] - HALF, self.still[b] - HALF);
+                ((fa < 0.0) != (fb < 0.0)).then(|| {
+                    let t = fa / (fa - fb);
+                    let (p, q) = (self.places[a], self.places[b]);
+                    (p.0 + t * (q.0 - p.0), p.1 + t * (q.1 - p.1))
+                })
+            };
+            let ends: Vec<Place> = [crossing(a, b), crossing(b, c), crossing(c, a)].into_iter().flatten().collect();
+            if let [from, to] = ends[..] {
+                pieces.push((from, to));
             }
         }
         pieces

@@ -55,6 +55,8 @@ pub struct DuctFlow {
     pub regularisation: Regularisation,
     /// how it is solved
     pub solver: SectionMethod,
+    /// elements along one height of the whole duct; `None`: the section alone
+    pub along: Option<usize>,
 }
 
 /// A square cavity under a sliding lid. All values SI.
@@ -138,7 +140,9 @@ pub(super) fn duct(scene: &Duct, faults: &mut Faults) -> Option<DuctFlow> {
         contents,
         regularisation: Regularisation::EXACT,
         solver: solver?,
+        along: scene.grid.along,
     };
+    whole(&duct, faults);
     duct.regularisation = Regularisation { law: scene.regularisation.law, lambda: size?.to_scaled(duct.shear_scale()) };
     Some(duct)
 }
@@ -163,14 +167,16 @@ pub(super) fn bed(scene: &DuctBed, model: &str, faults: &mut Faults) -> Option<D
         contents: Contents::Bed(bed?),
         regularisation: Regularisation::EXACT,
         solver: solver?,
+        along: scene.grid.along,
     };
+    whole(&duct, faults);
     duct.regularisation = Regularisation { law: scene.regularisation.law, lambda: size?.to_scaled(duct.shear_scale()) };
     Some(duct)
 }
 
 pub(super) fn cavity(scene: &Cavity, faults: &mut Faults) -> Option<CavityFlow> {
     let Cavity { fluid, flow, grid, .. } = scene;
-    let grid = SectionGrid { cells: grid.cells, yield_row: false, finest: grid.finest };
+    let grid = SectionGrid { cells: grid.cells, yield_row: false, finest: grid.finest, along: None };
     let solver = solver(scene.model.method, scene.regularisation.law, &grid, &scene.solver, faults);
     let lambda = size(&scene.regularisation, faults)?.to_scaled(flow.lid_velocity / flow.height);
     Some(CavityFlow {
@@ -182,6 +188,15 @@ pub(super) fn cavity(scene: &Cavity, faults: &mut Faults) -> Option<CavityFlow> 
         regularisation: Regularisation { law: scene.regularisation.law, lambda },
         solver: solver?,
     })
+}
+
+/// The whole duct has one velocity and walls on both sides.
+fn whole(duct: &DuctFlow, faults: &mut Faults) {
+    let slips = matches!(&duct.contents, Contents::Bed(bed) if bed.drag.is_some());
+    let dual = duct.solver.method == Method::FirstOrder;
+    if duct.along.is_some() && (slips || dual || duct.outline == Outline::Planes) {
+        faults.push(("grid.along", Fault::NotWhole));
+    }
 }
 
 /// The outline, in units of the height.

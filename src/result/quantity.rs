@@ -137,6 +137,11 @@ catalogue! {
     VORTEX_Y = "vortex_y_m", "vortex centre across", "y_v", "m", "distance of the largest stream function from the wall that the lid leaves";
     VORTEX_Z = "vortex_z_m", "vortex centre above the bottom", "z_v", "m", "elevation of the largest stream function";
     UNYIELDED_SHARE = "unyielded_share", "unyielded share", "A_0/A", "1", "area below the yield stress, moving or at rest, over that of the section; first order in the size of the cells";
+    SECTION_DEVIATION = "section_deviation", "deviation of the whole duct from its section", "|Δu|/u_max", "1", "largest difference of the velocity along the flow from that of the section on the same elements, over the largest velocity";
+    CROSS_FLOW = "cross_flow", "flow across the duct", "|v|/u_max", "1", "largest velocity across the whole duct over the largest one along it";
+    UNEVEN_FLOW = "uneven_flow", "unevenness along the duct", "|Δ_x u|/u_max", "1", "largest deviation of the velocity from its mean along the whole duct, over the largest velocity";
+    PRESSURE_DEVIATION = "pressure_deviation", "deviation of the pressure from the weight", "|Δp|/p_max", "1", "largest difference, but for a constant, of the pressure of the whole duct from the weight of the grains above, over the largest weight";
+    UNKNOWNS_WHOLE = "unknowns_whole", "unknowns of the whole duct", "N_3", "1", "components of the velocity that are solved for along, across and upwards; the pressure is eliminated";
     UNKNOWNS = "unknowns", "unknowns", "N", "1", "velocities or stream functions that are solved for";
     ITERATIONS = "iterations", "iterations", "n", "1", "systems solved, on all meshes";
     DUALITY_GAP = "duality_gap", "duality gap", "G", "1", "bound of the error of the minimum over the work of the drive";

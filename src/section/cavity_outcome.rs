@@ -7,6 +7,7 @@ use serde_json::{Map, json};
 use super::cavity::Cavity;
 use super::field::Field;
 use super::newton::{Solved, Stalled};
+use super::outcome::history;
 use super::{dual, newton};
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::problem::{CavityFlow, Method};
@@ -37,8 +38,8 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
         solved => solved.map_err(|stalled| failed(stalled, flow))?,
     };
     let psi = cavity.stream(&solved.x);
-    let unyielded = cavity.unyielded(&solved);
-    let mut results = results(flow, &cavity, &solved, &psi, &unyielded);
+    let stresses = cavity.stresses(&solved);
+    let mut results = results(flow, &cavity, &solved, &psi, &stresses);
     if !law.is_exact() {
         match newton::solve(&cavity.programme, &Regularisation::EXACT, &mut see) {
             Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
@@ -51,13 +52,12 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
         }
     }
     let profile = profile(flow, &cavity, &psi)?;
-    let field = field(flow, &cavity, &psi, &unyielded);
+    let field = field(flow, &cavity, &psi, &stresses);
     for (name, content) in [("section.csv", field.csv()), ("section.vts", field.vts())] {
         // A file that cannot be written is the folder's error, which every other file of the run meets, too.
         let _ = watch.keep(name, true, &mut || content.clone().into_bytes());
     }
-    let mut series = Series::new((1..=solved.history.len()).map(|i| i as f64).collect())?;
-    series.push(&q::RESIDUAL, solved.history.iter().map(|r| Some(*r)).collect())?;
+    let series = history(&solved.history)?;
     let how = "sum of the forces that are left on the nodes over that of the drive";
     let mut regularisation = Map::new();
     regularisation.insert("law".into(), serde_json::to_value(law.law).unwrap_or_default());
@@ -67,13 +67,16 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
     Ok(Outcome {
         status: Status::Done,
         profile: Some(profile),
-        series: Some(series),
+        series,
         results,
         balances: vec![Balance { name: "momentum".into(), relative: solved.imbalance, how: how.into() }],
         validity: Vec::new(),
         regularisation,
     })
 }
+
+/// Stress over yield stress beyond which it makes no difference.
+const LARGE: f64 = 2.0;
 
 fn failed(stalled: Stalled, flow: &CavityFlow) -> SolveError {
     stalled.into_error(flow.solver.method, flow.lid / flow.h)
@@ -85,12 +88,12 @@ impl Cavity {
         (self.y.len(), self.z.len())
     }
 
-    /// Whether each cell is below the yield stress by the mean of its shear stresses: those of single nodes oscillate.
-    fn unyielded(&self, solved: &Solved<5>) -> Vec<bool> {
+    /// Stress over yield stress of each cell, from the mean of its shear stresses: those of single nodes oscillate.
+    fn stresses(&self, solved: &Solved<5>) -> Vec<f64> {
         let points = &self.programme.points;
         let part = |k: usize, d: usize| points[k].carried * solved.q[k][d] + points[k].weight * solved.g[k][d];
         let stress = |k: usize| part(k, 0).hypot(0.5 * (1..5).map(|d| part(k, d)).sum::<f64>());
-        (0..points.len()).map(|k| stress(k) < points[k].carried).collect()
+        (0..points.len()).map(|k| stress(k) / points[k].carried).collect()
     }
 
     /// Place and size of the largest magnitude of the stream function: top of the parabolas through the largest node and its
@@ -124,14 +127,14 @@ fn top(x: &[f64], f: &[f64; 3]) -> (f64, f64) {
     (place, f[0] + (place - x[0]) * (left + curvature * (place - x[1])))
 }
 
-fn results(flow: &CavityFlow, cavity: &Cavity, solved: &Solved<5>, psi: &[f64], unyielded: &[bool]) -> Results {
+fn results(flow: &CavityFlow, cavity: &Cavity, solved: &Solved<5>, psi: &[f64], stresses: &[f64]) -> Results {
     let (y, z, strength) = cavity.vortex(psi);
     let area: f64 = cavity
         .programme
         .points
         .iter()
-        .zip(unyielded)
-        .filter(|(_, u)| **u)
+        .zip(stresses)
+        .filter(|(_, s)| **s < 1.0)
         .map(|(p, _)| p.weight)
         .fold(0.0, |sum, w| sum + w);
     let mut results = Results::default();
@@ -171,7 +174,7 @@ fn profile(flow: &CavityFlow, cavity: &Cavity, psi: &[f64]) -> Result<Profile, T
     Ok(profile)
 }
 
-fn field(flow: &CavityFlow, cavity: &Cavity, psi: &[f64], unyielded: &[bool]) -> Field {
+fn field(flow: &CavityFlow, cavity: &Cavity, psi: &[f64], stresses: &[f64]) -> Field {
     let (across, up) = cavity.lines();
     let (y, z) = (&cavity.y, &cavity.z);
     // Derivatives at the nodes: of the parabola inside, of the walls on the walls.
@@ -183,23 +186,22 @@ fn field(flow: &CavityFlow, cavity: &Cavity, psi: &[f64], unyielded: &[bool]) ->
         let (i, j) = (node % across, node / across);
         i > 0 && j > 0 && i < across - 1 && j < up - 1
     };
-    let speed = |node: usize| {
+    let velocity = |node: usize| {
         let (i, j) = (node % across, node / across);
         if inner(node) {
-            let u = slope(z, j, &|j| psi[j * across + i]);
-            u.hypot(slope(y, i, &|i| psi[j * across + i]))
+            (slope(z, j, &|j| psi[j * across + i]), -slope(y, i, &|i| psi[j * across + i]))
         } else {
-            f64::from(u8::from(j == up - 1))
+            (f64::from(u8::from(j == up - 1)), 0.0)
         }
     };
-    let still = |node: usize| {
+    // The mean of a function of the stress over the cells around a node; a Newtonian fluid has no stress to compare with.
+    let around = |node: usize, of: &dyn Fn(f64) -> f64| {
         let (i, j) = (node % across, node / across);
         let cells = [(i.wrapping_sub(1), j.wrapping_sub(1)), (i, j.wrapping_sub(1)), (i.wrapping_sub(1), j), (i, j)];
         let around = cells.into_iter().filter(|(i, j)| *i < across - 1 && *j < up - 1);
-        let held: Vec<f64> = around
-            .map(|(i, j)| f64::from(u8::from(unyielded.get(j * (across - 1) + i).copied().unwrap_or(false))))
-            .collect();
-        held.iter().sum::<f64>() / held.len() as f64
+        let of = around.map(|(i, j)| of(stresses.get(j * (across - 1) + i).copied().unwrap_or(LARGE)));
+        let (sum, count) = of.fold((0.0, 0.0), |(sum, count), s| (sum + s, count + 1.0));
+        sum / count
     };
     let nodes = 0..across * up;
     Field {
@@ -207,8 +209,11 @@ fn field(flow: &CavityFlow, cavity: &Cavity, psi: &[f64], unyielded: &[bool]) ->
         up,
         places: nodes.clone().map(|n| (y[n % across] * flow.h, z[n / across] * flow.h)).collect(),
         columns: vec![
-            ("speed_m_s", nodes.clone().map(|n| speed(n) * flow.lid).collect()),
-            ("unyielded", nodes.map(still).collect()),
+            ("speed_m_s", nodes.clone().map(velocity).map(|(u, w)| u.hypot(w) * flow.lid).collect()),
+            ("u_m_s", nodes.clone().map(|n| velocity(n).0 * flow.lid).collect()),
+            ("w_m_s", nodes.clone().map(|n| velocity(n).1 * flow.lid).collect()),
+            ("unyielded", nodes.clone().map(|n| around(n, &|s| f64::from(u8::from(s < 1.0)))).collect()),
+            ("stress_over_yield", nodes.map(|n| around(n, &|s| s.min(LARGE))).collect()),
             ("stream_function_m2_s", psi.iter().map(|p| p * flow.lid * flow.h).collect()),
         ],
     }

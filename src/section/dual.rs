@@ -51,7 +51,7 @@ pub fn solve<const D: usize, const N: usize>(
         }
         if gap <= tolerance {
             let size = |forces: &[f64]| forces.iter().map(|r| r.abs()).sum::<f64>();
-            let imbalance = size(&programme.imbalance(&x, &ahead)) / size(&programme.load);
+            let imbalance = size(&programme.imbalance(&programme.load, &x, &ahead)) / size(&programme.load);
             return Ok(Solved { x, g, q: ahead, history, gap, imbalance, lambda: 0.0 });
         }
         let next = 0.5 * (1.0 + (1.0 + 4.0 * momentum * momentum).sqrt());

@@ -77,7 +77,7 @@ impl Duct {
     }
 
     /// Relative viscosity, yield stress and permeability at height `z`, in the bed or above.
-    fn material(&self, z: f64, in_bed: bool) -> (f64, f64, Option<f64>) {
+    pub(super) fn material(&self, z: f64, in_bed: bool) -> (f64, f64, Option<f64>) {
         match self.filling {
             Filling::Bingham(y) => (1.0, y, None),
             Filling::Bed { level, e, hold, k } if in_bed => (e, hold * (level - z), k),
@@ -88,10 +88,11 @@ impl Duct {
     /// Divides the duct into elements, `columns` of them across its half and `rows` from the bottom to the top.
     #[must_use]
     pub fn divide(&self, columns: usize, rows: usize, finest: f64, line: Option<&[f64]>) -> Divided {
-        // Below the yield surface the fluid that seeps comes to rest over the length of Brinkman.
+        // Below the yield surface the fluid that seeps comes to rest over the length of Brinkman, and the velocity of the grains
+        // has a kink on it.
         let layer = match self.filling {
-            Filling::Bed { k: Some(k), e, .. } => 0.5 * (k * e).sqrt(),
-            _ => f64::INFINITY,
+            Filling::Bed { k: Some(k), e, .. } => (12.0 / rows as f64 * (k * e).sqrt(), 0.1),
+            _ => (f64::INFINITY, 1.0),
         };
         let mesh = Mesh::new(self.shape, &Division { columns, rows, bed: self.bed(), line, layer, finest });
         let slips = matches!(self.filling, Filling::Bed { k: Some(_), .. });

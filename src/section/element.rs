@@ -18,7 +18,7 @@ pub struct Point {
 }
 
 /// Abscissae and weights of Gauss on -1..1.
-const GAUSS: [(f64, f64); 3] =
+pub(super) const GAUSS: [(f64, f64); 3] =
     [(-0.774_596_669_241_483_4, 5.0 / 9.0), (0.0, 8.0 / 9.0), (0.774_596_669_241_483_4, 5.0 / 9.0)];
 
 /// Values and derivatives of the three quadratic functions at `x` in -1..1.

@@ -7,16 +7,23 @@
 use super::duct::{Divided, Filling};
 use crate::numerics::root::brent;
 
+/// Velocity of the grains over that of the flow which counts as none: well above what the smallest smoothing leaves.
+const CREEP: f64 = 1e-7;
+
 impl Divided {
     /// Height of the yield surface in each node column, from the velocity `w` of the grains at the nodes: the zero of the cubic
     /// through four levels of the mobile layer; of the square root of `w` with one velocity, where both `w` and its slope
-    /// vanish at the surface. `None`: the grains are at rest.
+    /// vanish at the surface. `None`: the grains are at rest, up to the creep of the smoothing, under the flow `u`.
     #[must_use]
-    pub fn yield_line(&self, w: &[f64]) -> Option<Vec<f64>> {
+    pub fn yield_line(&self, u: &[f64], w: &[f64]) -> Option<Vec<f64>> {
         let Filling::Bed { level, k, .. } = self.duct.filling else { return None };
         let (across, _) = self.mesh.lines();
         let top = 2 * self.mesh.bed_rows;
-        let largest = w.iter().fold(0.0_f64, |m, w| m.max(*w));
+        let size = |of: &[f64]| of.iter().fold(0.0_f64, |m, w| m.max(*w));
+        let largest = size(w);
+        if largest <= CREEP * size(u) {
+            return None;
+        }
         let mut line: Vec<f64> = (0..across - 1)
             .map(|i| {
                 let at = |j: usize| (self.mesh.position(self.mesh.node(i, j)).1, w[self.mesh.node(i, j)]);

@@ -86,8 +86,8 @@ pub struct Division<'a> {
     pub bed: Option<f64>,
     /// heights of a yield line below the bed level, one per node column, on which a row ends, too
     pub line: Option<&'a [f64]>,
-    /// size of the elements just below that line
-    pub layer: f64,
+    /// size of the elements just below that line, and of those just above it over equal ones
+    pub layer: (f64, f64),
     /// size of the elements at the walls and at the bed level over the equal one; 1: equal elements
     pub finest: f64,
 }
@@ -116,9 +116,15 @@ impl Mesh {
                 if let Some(line) = line {
                     // Rows keep a height where the surface nears the bottom or the bed level.
                     from = shape.row_at(line[i].clamp(0.02 * level, 0.98 * level));
-                    s.extend(graded(0.0, from, still_rows, layer).into_iter().skip(1));
+                    s.extend(graded(0.0, from, still_rows, layer.0).into_iter().skip(1));
                 }
-                s.extend(towards(from, at, bed_rows - still_rows).into_iter().skip(1));
+                let mobile = bed_rows - still_rows;
+                if line.is_some() && layer.1 < 1.0 {
+                    let first = layer.1 * (at - from) / mobile as f64;
+                    s.extend(mirrored(graded(from, at, mobile, first), from, at));
+                } else {
+                    s.extend(towards(from, at, mobile).into_iter().skip(1));
+                }
                 s.extend(mirrored(towards(at, 1.0, rows - bed_rows), at, 1.0));
             } else {
                 s.extend(mirrored(towards(0.5, 1.0, rows / 2), 0.5, 1.0).map(|s| s - 0.5));

@@ -14,6 +14,7 @@ pub mod duct;
 pub mod element;
 mod field;
 pub mod fit;
+pub mod full;
 pub mod mesh;
 pub mod newton;
 pub mod numbers;

@@ -74,6 +74,7 @@ const FALL: f64 = 0.2;
 /// State of the iteration.
 struct Iterate<'a, const D: usize, const N: usize> {
     programme: &'a Programme<D, N>,
+    load: Vec<f64>,
     cholesky: Cholesky,
     values: Vec<f64>,
     /// size of the unknowns that counts as none
@@ -92,6 +93,21 @@ pub fn solve<const D: usize, const N: usize>(
     law: &Regularisation,
     see: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Solved<D>, Stalled> {
+    solve_held(programme, law, SETTLED, &mut |_, _| (), see)
+}
+
+/// As [`solve`], with forces that depend on the solution: after each step `hold` receives the unknowns and corrects the load,
+/// as the pressure does that holds a flow free of divergence. `none` is the relative change that counts as none.
+///
+/// # Errors
+/// [`Stalled`].
+pub fn solve_held<const D: usize, const N: usize>(
+    programme: &Programme<D, N>,
+    law: &Regularisation,
+    none: f64,
+    hold: &mut dyn FnMut(&[f64], &mut [f64]),
+    see: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Solved<D>, Stalled> {
     let mut cholesky = Cholesky::new(&programme.pattern, programme.order.as_deref())?;
     cholesky.factorise(&programme.base)?;
     let mut x = programme.load.clone();
@@ -102,7 +118,9 @@ pub fn solve<const D: usize, const N: usize>(
     let scale = g.iter().map(length).fold(0.0, f64::max);
     let values = programme.base.clone();
     let still = STILL * x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let mut iterate = Iterate { programme, cholesky, values, still, x, g, q: vec![[0.0; D]; points] };
+    let mut load = programme.load.clone();
+    hold(&x, &mut load);
+    let mut iterate = Iterate { programme, load, cholesky, values, still, x, g, q: vec![[0.0; D]; points] };
     let mut history = Vec::new();
     let exact = law.is_exact();
     let floor = if exact { RIGID * scale } else { law.lambda };
@@ -115,6 +133,7 @@ pub fn solve<const D: usize, const N: usize>(
         }
         lawful.lambda = lambda;
         let change = iterate.step(&lawful)?;
+        hold(&iterate.x, &mut iterate.load);
         history.push(change);
         if see(change).is_break() {
             return Err(Stalled::Stopped);
@@ -123,7 +142,7 @@ pub fn solve<const D: usize, const N: usize>(
             break;
         }
         let last = lambda <= floor;
-        settled = change < SETTLED && last;
+        settled = change < none && last;
         if !last && change < 0.3 {
             lambda = (FALL * lambda).max(floor);
         }
@@ -132,10 +151,10 @@ pub fn solve<const D: usize, const N: usize>(
         let change = history.last().copied().unwrap_or(f64::INFINITY);
         return Err(Stalled::Unsettled { change, iterations: history.len(), lambda });
     }
-    let Iterate { x, g, q, .. } = iterate;
+    let Iterate { x, g, q, load, .. } = iterate;
     let work: f64 = x.iter().zip(&programme.load).map(|(x, b)| x * b).sum();
     let size = |forces: &[f64]| forces.iter().map(|r| r.abs()).sum::<f64>();
-    let imbalance = size(&programme.imbalance(&x, &q)) / size(&programme.load);
+    let imbalance = size(&programme.imbalance(&load, &x, &q)) / size(&load);
     let gap = programme.gap(&g, &q) / work.abs().max(f64::MIN_POSITIVE);
     Ok(Solved { x, g, q, history, gap, imbalance, lambda })
 }
@@ -143,7 +162,7 @@ pub fn solve<const D: usize, const N: usize>(
 impl<const D: usize, const N: usize> Iterate<'_, D, N> {
     /// One step; the relative change of the unknowns.
     fn step(&mut self, law: &Regularisation) -> Result<f64, Stalled> {
-        let Self { programme, cholesky, values, still, x, g, q } = self;
+        let Self { programme, load, cholesky, values, still, x, g, q } = self;
         values.copy_from_slice(&programme.base);
         let per_block = programme.per_block;
         for ((block, points), (g, q)) in programme.each().zip(g.chunks(per_block).zip(q.chunks(per_block))) {
@@ -166,7 +185,7 @@ impl<const D: usize, const N: usize> Iterate<'_, D, N> {
         }
         cholesky.factorise(values)?;
         let carried: Vec<[f64; D]> = g.iter().map(|g| g.map(|a| a / law.effective(length(g)).0)).collect();
-        let mut dx = programme.imbalance(x, &carried);
+        let mut dx = programme.imbalance(load, x, &carried);
         cholesky.solve(&mut dx);
         let size = x.iter().zip(&dx).fold(*still, |m, (x, d)| m.max((x + d).abs()));
         let change = dx.iter().fold(0.0_f64, |m, d| m.max(d.abs())) / size;

@@ -7,6 +7,8 @@ use super::solve::Solution;
 
 /// Velocity over the largest one below which material counts as being at rest.
 const REST: f64 = 1e-6;
+/// Stress over yield stress beyond which it makes no difference.
+const LARGE: f64 = 2.0;
 /// Missing share of the yield stress from which on grains without viscosity count as standing.
 const STANDS: f64 = 1e-6;
 
@@ -29,6 +31,9 @@ pub struct Numbers {
     pub tau_bed: f64,
     /// share of the elements around a node that do not yield
     pub unyielded: Vec<f64>,
+    /// stress over yield stress at the nodes, 2 where it is more or where there is none; not for grains without viscosity,
+    /// whose stress is the yield stress wherever they move
+    pub stress: Option<Vec<f64>>,
     /// dissipation over the work of the drive, minus 1
     pub power: f64,
 }
@@ -41,7 +46,7 @@ impl Numbers {
         let (mesh, x) = (&divided.mesh, &solution.solved.x);
         let (u, w) = (divided.velocity(x), divided.grains(x));
         let u_max = largest(divided, &u);
-        let (plug, dead, unyielded) = areas(solution, &w, REST * u_max.1);
+        let Areas { plug, dead, unyielded, stress } = areas(solution, &w, REST * u_max.1);
         let level = divided.duct.bed().unwrap_or(0.0);
         let moves = divided.integral(&w, 0..mesh.bed_rows) > REST * u_max.1;
         let mobile = match &solution.line {
@@ -58,6 +63,7 @@ impl Numbers {
             mobile,
             tau_bed: if mesh.bed_rows > 0 { slope(divided, &u, mesh.bed_rows, -1.0) } else { 0.0 },
             unyielded,
+            stress,
             power: power(solution),
         }
     }
@@ -113,9 +119,18 @@ pub fn shear_rates(divided: &Divided, x: &[f64]) -> Vec<Option<f64>> {
         .collect()
 }
 
-/// Areas that do not yield, moving and at rest, and the share of the elements around each node that do not. An element
-/// does not where the mean of its stress is below the mean of its yield stress; the stress of single points oscillates.
-fn areas(solution: &Solution, w: &[f64], rest: f64) -> (f64, f64, Vec<f64>) {
+/// What does not yield.
+struct Areas {
+    plug: f64,
+    dead: f64,
+    unyielded: Vec<f64>,
+    stress: Option<Vec<f64>>,
+}
+
+/// Areas that do not yield, moving and at rest, the share of the elements around each node that do not, and the mean stress of
+/// those elements over their yield stress. An element does not yield where the mean of its stress is below the mean of its
+/// yield stress; the stress of single points oscillates.
+fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
     let divided = &solution.divided;
     let (programme, mesh, solved) = (&divided.programme, &divided.mesh, &solution.solved);
     let viscosity = match divided.duct.filling {
@@ -124,12 +139,15 @@ fn areas(solution: &Solution, w: &[f64], rest: f64) -> (f64, f64, Vec<f64>) {
         Filling::Bed { .. } => None,
     };
     let (mut plug, mut dead) = (0.0, 0.0);
-    let (mut still, mut all) = (vec![0.0; mesh.nodes()], vec![0.0; mesh.nodes()]);
+    let (mut still, mut all, mut ratio) = (vec![0.0; mesh.nodes()], vec![0.0; mesh.nodes()], vec![0.0; mesh.nodes()]);
     for element in 0..mesh.elements() {
         let nodes = mesh.element(element);
         nodes.iter().for_each(|node| all[*node] += 1.0);
         let from = 9 * element;
-        let Some(yielding) = programme.points.get(from..from + 9) else { continue };
+        let Some(yielding) = programme.points.get(from..from + 9) else {
+            nodes.iter().for_each(|node| ratio[*node] += LARGE);
+            continue;
+        };
         let (mut stress, mut yields, mut area) = ([0.0; 2], 0.0, 0.0);
         for (k, point) in yielding.iter().enumerate() {
             let (g, q) = (solved.g[from + k], solved.q[from + k]);
@@ -140,13 +158,16 @@ fn areas(solution: &Solution, w: &[f64], rest: f64) -> (f64, f64, Vec<f64>) {
             area += 2.0 * point.weight;
         }
         let limit = if viscosity.is_some() { yields } else { (1.0 - STANDS) * yields };
+        let here = (length(&stress) / yields).min(LARGE);
+        nodes.iter().for_each(|node| ratio[*node] += here);
         if length(&stress) < limit {
             nodes.iter().for_each(|node| still[*node] += 1.0);
             let speed = nodes.iter().map(|node| w[*node].abs()).sum::<f64>() / 9.0;
             *(if speed < rest { &mut dead } else { &mut plug }) += area;
         }
     }
-    (plug, dead, still.iter().zip(&all).map(|(s, a)| s / a).collect())
+    let mean = |sums: &[f64]| -> Vec<f64> { sums.iter().zip(&all).map(|(s, a)| s / a).collect() };
+    Areas { plug, dead, unyielded: mean(&still), stress: viscosity.is_some().then(|| mean(&ratio)) }
 }
 
 /// Dissipation over the work of the drive, minus 1; 0 where nothing moves.

@@ -6,6 +6,7 @@ use serde_json::{Map, json};
 
 use super::duct::{Duct, Filling};
 use super::field::Field;
+use super::full::Full;
 use super::newton::{self, Stalled};
 use super::numbers::Numbers;
 use super::solve::Solution;
@@ -13,7 +14,7 @@ use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::problem::{Contents, DuctFlow, Method, Outline};
 use crate::result::{
     Balance, Failure, Outcome, Profile, Results, Series, Snapshot, SolveError, Status, TableError, Validity, Watch,
-    quantity as q,
+    quantity as q, quantity::Quantity,
 };
 use crate::units::significant;
 
@@ -65,13 +66,21 @@ pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outco
         let fraction = 1.0 - 1.0 / (1.0 + 0.05 * turns as f64);
         watch.see(&Snapshot { stage: &stage, fraction, quantity: None })
     };
-    let solution = match duct.solve(cells, law, &flow.solver, &mut see) {
+    let mut solution = match duct.solve(cells, law, &flow.solver, &mut see) {
         Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
         solution => solution.map_err(|stalled| failed(stalled, flow))?,
     };
+    let mut beside = Vec::new();
+    if let Some(along) = flow.along {
+        match draw_out(flow, along, &mut solution, &mut beside, &mut see) {
+            Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
+            done => done.map_err(|stalled| failed(stalled, flow))?,
+        }
+    }
     let numbers = Numbers::of(&solution);
     let mut results = results(flow, &solution, &numbers);
-    if !law.is_exact() {
+    beside.into_iter().for_each(|(quantity, value)| results.set(quantity, value));
+    if !law.is_exact() && flow.along.is_none() {
         let mut see = |change: f64| see(solution.solved.x.len(), change);
         match newton::solve(&solution.divided.programme, &Regularisation::EXACT, &mut see) {
             Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
@@ -87,8 +96,7 @@ pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outco
         let _ = watch.keep(name, true, &mut || content.clone().into_bytes());
     }
     let solved = &solution.solved;
-    let mut series = Series::new((1..=solved.history.len()).map(|i| i as f64).collect())?;
-    series.push(&q::RESIDUAL, solved.history.iter().map(|r| Some(*r)).collect())?;
+    let series = history(&solved.history)?;
     let balance = |name: &str, relative: f64, how: &str| Balance { name: name.into(), relative, how: how.into() };
     let balances = vec![
         balance("power", numbers.power, "dissipation against the work of the drive"),
@@ -102,12 +110,22 @@ pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     Ok(Outcome {
         status: Status::Done,
         profile: Some(profile),
-        series: Some(series),
+        series,
         results,
         balances,
         validity: validity(flow),
         regularisation,
     })
+}
+
+/// The change of each iteration; a Newtonian flow needs none.
+pub(super) fn history(changes: &[f64]) -> Result<Option<Series>, TableError> {
+    if changes.is_empty() {
+        return Ok(None);
+    }
+    let mut series = Series::new((1..=changes.len()).map(|i| i as f64).collect())?;
+    series.push(&q::RESIDUAL, changes.iter().map(|r| Some(*r)).collect())?;
+    Ok(Some(series))
 }
 
 fn failed(stalled: Stalled, flow: &DuctFlow) -> SolveError {
@@ -157,6 +175,36 @@ fn results(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Results {
     results.set(&q::ITERATIONS, solution.iterations as f64);
     results.set(&q::DUALITY_GAP, solution.solved.gap);
     results
+}
+
+/// Solves the whole duct on the elements of its section and puts what it has in place of what the section had.
+fn draw_out(
+    flow: &DuctFlow,
+    along: usize,
+    solution: &mut Solution,
+    results: &mut Vec<(&'static Quantity, f64)>,
+    see: &mut dyn FnMut(usize, f64) -> ControlFlow<()>,
+) -> Result<(), Stalled> {
+    let weight = match &flow.contents {
+        Contents::Bed(bed) => bed.phi,
+        Contents::Bingham { .. } => 0.0,
+    };
+    let full = Full::new(&solution.divided, along, weight);
+    let unknowns = full.programme.size();
+    let whole = full.solve(&flow.regularisation, &mut |change| see(unknowns, change))?;
+    let section = &solution.solved.x;
+    let largest = section.iter().fold(0.0_f64, |m, u| m.max(*u)).max(f64::MIN_POSITIVE);
+    let apart = section.iter().zip(&whole.section.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+    results.push((&q::SECTION_DEVIATION, apart / largest));
+    results.push((&q::CROSS_FLOW, whole.across));
+    results.push((&q::UNEVEN_FLOW, whole.uneven));
+    if weight > 0.0 {
+        results.push((&q::PRESSURE_DEVIATION, whole.pressure));
+    }
+    results.push((&q::UNKNOWNS_WHOLE, unknowns as f64));
+    solution.iterations += whole.section.history.len();
+    solution.solved = whole.section;
+    Ok(())
 }
 
 /// What the regularisation changed, against the exact yield `x` on the same mesh.
@@ -230,6 +278,7 @@ fn field(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Field {
         (y * flow.h, z * flow.h)
     };
     let mut columns = vec![(q::U_MIXTURE.name, si(divided.velocity(x))), ("unyielded", numbers.unyielded.clone())];
+    columns.extend(numbers.stress.clone().map(|stress| ("stress_over_yield", stress)));
     if matches!(&flow.contents, Contents::Bed(bed) if bed.drag.is_some()) {
         columns.push((q::U_PARTICLE.name, si(divided.grains(x))));
     }

@@ -150,12 +150,12 @@ impl<const D: usize, const N: usize> Programme<D, N> {
         }
     }
 
-    /// `b - K x - sum B t q`.
+    /// `b - K x - sum B t q` for the load `b`.
     #[must_use]
-    pub fn imbalance(&self, x: &[f64], q: &[[f64; D]]) -> Vec<f64> {
+    pub fn imbalance(&self, load: &[f64], x: &[f64], q: &[[f64; D]]) -> Vec<f64> {
         let mut out = vec![0.0; self.size()];
         self.pattern.multiply(&self.base, x, &mut out);
-        out.iter_mut().zip(&self.load).for_each(|(o, b)| *o = b - *o);
+        out.iter_mut().zip(load).for_each(|(o, b)| *o = b - *o);
         self.forces(q, -1.0, &mut out);
         out
     }

@@ -64,7 +64,7 @@ impl Duct {
             };
             iterations += solved.history.len();
             let line = if law.is_exact() || !last {
-                divided.yield_line(&divided.grains(&solved.x))
+                divided.yield_line(&divided.velocity(&solved.x), &divided.grains(&solved.x))
             } else {
                 line.map(<[f64]>::to_vec)
             };

@@ -20,6 +20,7 @@ mod schema;
 mod section;
 mod section_cavity;
 mod section_cone;
+mod section_full;
 mod sheet;
 mod sheet_statements;
 mod studies;

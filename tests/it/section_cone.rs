@@ -76,6 +76,23 @@ fn compare<const D: usize, const N: usize>(name: &str, programme: &Programme<D, 
     let worst = solved.x.iter().zip(&cones).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest;
     println!("{name}: {worst:.1e} of the largest value, {} iterations", solved.history.len());
     assert!(worst < digits, "{name}: {worst}");
+    // The gap at which the cone programme ends bounds the distance from the minimum in the norm of K.
+    let mut g = vec![[0.0; D]; programme.points.len()];
+    programme.strains(&cones, &mut g);
+    let (value, least) = (programme.value(&cones, &g), programme.value(&solved.x, &solved.g));
+    let apart: Vec<f64> = solved.x.iter().zip(&cones).map(|(a, b)| a - b).collect();
+    let mut forces = vec![0.0; apart.len()];
+    programme.pattern.multiply(&programme.base, &apart, &mut forces);
+    let distance = 0.5 * apart.iter().zip(&forces).map(|(a, f)| a * f).sum::<f64>();
+    let gap = TOLERANCE * least.abs().max(largest * largest);
+    println!(
+        "{name}: minimum {least:.3e}, above it {:.1e}, half the distance squared {distance:.1e}, gap {gap:.1e}",
+        value - least
+    );
+    assert!(distance < 2.0 * gap, "{name}: {distance} {gap}");
+    // Ours is above the minimum by no more than its own gap.
+    let own = programme.gap(&solved.g, &solved.q);
+    assert!(value - least < 2.0 * gap && least - value < own + 2.0 * gap, "{name}: {value} {least}, gaps {gap} {own}");
 }
 
 #[test]
@@ -96,7 +113,9 @@ fn ducts_have_the_velocity_of_the_cone_programme() {
 
 #[test]
 fn a_cavity_has_the_stream_function_of_the_cone_programme() {
+    // The minimum is flat in the stream function: the gap leaves 1.5e-6 and 1.7e-7 of it. At a tolerance of 1e-12 the
+    // interior-point method only almost solves the programme, and its answer stays the same.
     for bn in [2.0, 20.0] {
-        compare("cavity", &Cavity::new(bn, 12, 0.5).programme, 1e-7);
+        compare("cavity", &Cavity::new(bn, 12, 0.5).programme, 2e-6);
     }
 }
