@@ -1,5 +1,6 @@
 //! The command line: one file per verb. Answers go to standard output, everything else to standard error.
 
+mod chart;
 mod check;
 mod compare;
 mod completions;
@@ -11,6 +12,7 @@ mod progress;
 mod report;
 mod run;
 mod schema;
+mod stability;
 mod study;
 mod sweep;
 mod validate;
@@ -60,6 +62,10 @@ enum Verb {
     Converge(converge::Converge),
     /// Run a case over values of one key, or a grid of several
     Sweep(sweep::Sweep),
+    /// Chart speed against accuracy of the models and settings that answer one scene
+    Chart(chart::Chart),
+    /// Map where a case holds over one key or two, and how it fails beyond
+    Stability(stability::Stability),
     /// Re-run what the cases claim and write the table
     Validate(validate::Validate),
     /// Print the JSON Schema of case files, for editors
@@ -179,6 +185,8 @@ pub fn execute() -> ExitCode {
         Verb::Compare(verb) => verb.json,
         Verb::Converge(verb) => verb.study.json,
         Verb::Sweep(verb) => verb.study.json,
+        Verb::Chart(verb) => verb.study.json,
+        Verb::Stability(verb) => verb.study.json,
         Verb::Validate(verb) => verb.json,
         Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
     };
@@ -192,6 +200,8 @@ pub fn execute() -> ExitCode {
         Verb::Compare(verb) => verb.execute(),
         Verb::Converge(verb) => verb.execute(),
         Verb::Sweep(verb) => verb.execute(),
+        Verb::Chart(verb) => verb.execute(),
+        Verb::Stability(verb) => verb.execute(),
         Verb::Validate(verb) => verb.execute(),
         Verb::Schema(verb) => verb.execute(),
         Verb::Completions(verb) => verb.execute(),
