@@ -91,7 +91,8 @@ impl Compare {
             solve_s: comparison.subjects.iter().map(|s| s.solve_s).sum(),
             total_s: start.elapsed().as_secs_f64(),
             peak_memory_mb: peak_memory_mb(),
-            work_units: comparison.subjects.iter().map(|s| s.profile.rows() as f64).sum(), ..Cost::default()
+            work_units: comparison.subjects.iter().map(|s| s.profile.rows() as f64).sum(),
+            ..Cost::default()
         };
         let figures = write_comparison(folder, &comparison, &request, &cost, &provenance, self.png)?;
         if self.json {

@@ -1,5 +1,6 @@
 //! The command line: one file per verb. Answers go to standard output, everything else to standard error.
 
+mod advise;
 mod chart;
 mod check;
 mod compare;
@@ -23,6 +24,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 use serde_json::{Value, json};
 
+use crate::advise::AdviseError;
 use crate::case::{Case, CaseError, printable};
 use crate::compare::CompareError;
 use crate::output::OutputError;
@@ -66,6 +68,8 @@ enum Verb {
     Chart(chart::Chart),
     /// Map where a case holds over one key or two, and how it fails beyond
     Stability(stability::Stability),
+    /// Name the least model that serves a scene, and what in it can go
+    Advise(advise::Advise),
     /// Re-run what the cases claim and write the table
     Validate(validate::Validate),
     /// Print the JSON Schema of case files, for editors
@@ -144,6 +148,15 @@ impl From<StudyError> for CliError {
     }
 }
 
+impl From<AdviseError> for CliError {
+    fn from(error: AdviseError) -> Self {
+        match error {
+            AdviseError::Case(error) => Self::Case(error),
+            other => Self::Usage { message: other.to_string(), hint: "give a case of a flow over grains".into() },
+        }
+    }
+}
+
 impl From<OutputError> for CliError {
     fn from(error: OutputError) -> Self {
         Self::Output(error)
@@ -187,6 +200,7 @@ pub fn execute() -> ExitCode {
         Verb::Sweep(verb) => verb.study.json,
         Verb::Chart(verb) => verb.study.json,
         Verb::Stability(verb) => verb.study.json,
+        Verb::Advise(verb) => verb.json,
         Verb::Validate(verb) => verb.json,
         Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
     };
@@ -202,6 +216,7 @@ pub fn execute() -> ExitCode {
         Verb::Sweep(verb) => verb.execute(),
         Verb::Chart(verb) => verb.execute(),
         Verb::Stability(verb) => verb.execute(),
+        Verb::Advise(verb) => verb.execute(),
         Verb::Validate(verb) => verb.execute(),
         Verb::Schema(verb) => verb.execute(),
         Verb::Completions(verb) => verb.execute(),

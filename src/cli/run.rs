@@ -76,7 +76,8 @@ impl Run {
             solve_s,
             total_s: start.elapsed().as_secs_f64(),
             peak_memory_mb: peak_memory_mb(),
-            work_units: problem.cells as f64, ..Cost::default()
+            work_units: problem.cells as f64,
+            ..Cost::default()
         };
         let written = match &result {
             Ok(outcome) => write_outcome(folder, summary, &problem, outcome, cost, self.png)?,

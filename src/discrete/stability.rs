@@ -77,7 +77,13 @@ struct Stiffness {
 pub fn limit<C: ContactLaw>(engine: &Engine<C>) -> Limit {
     let grains = &engine.grains;
     let (k_n, k_s) = engine.law.stiffness();
-    let none = Stiffness { normal: Matrix3::zeros(), whole: Matrix6::zeros(), contacts: 0, damping: 0.0, softest: f64::INFINITY };
+    let none = Stiffness {
+        normal: Matrix3::zeros(),
+        whole: Matrix6::zeros(),
+        contacts: 0,
+        damping: 0.0,
+        softest: f64::INFINITY,
+    };
     let mut all = vec![none; grains.len()];
     for contact in engine.contacts() {
         let n = Vector3::from(contact.normal);

@@ -226,7 +226,9 @@ fn judge(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Judge
     };
     judgement.findings = findings(rows, &judged, &front, &truth);
     judgement.facts.insert("quantity".into(), json!(truth.quantity.name));
-    judgement.facts.insert("reference".into(), json!({ "value": truth.value, "stderr": truth.error, "what": truth.words }));
+    judgement
+        .facts
+        .insert("reference".into(), json!({ "value": truth.value, "stderr": truth.error, "what": truth.words }));
     judgement.facts.insert("front".into(), front.iter().map(|j| json!(name(&rows[j.row]))).collect());
     judgement.figures.push(figure(rows, &judged, &front, &truth));
     judgement
@@ -317,9 +319,8 @@ fn figure(rows: &[Row], judged: &[Judged], front: &[Judged], truth: &Truth) -> F
         });
         for (i, series_name) in series.iter().enumerate() {
             let of = judged.iter().filter(|j| rows[j.row].point.series == **series_name);
-            let mut of: Vec<(f64, f64, String)> = of
-                .filter_map(|j| Some((cost(&rows[j.row])?, j.error, note(&rows[j.row], j.error))))
-                .collect();
+            let mut of: Vec<(f64, f64, String)> =
+                of.filter_map(|j| Some((cost(&rows[j.row])?, j.error, note(&rows[j.row], j.error)))).collect();
             of.sort_by(|a, b| a.0.total_cmp(&b.0));
             curves.push(Curve {
                 name: if named { (*series_name).to_owned() } else { String::new() },

@@ -158,7 +158,8 @@ mod tests {
         assert_eq!(counts("bingham_1d_plane"), [6, 12, 12, 12]);
         assert_eq!(counts("sheet_1d_sumer91"), [6, 6, 6]);
         assert_eq!(counts("section_2d_square_bed"), [5, 3, 12, 12]);
-        assert_eq!(counts("coupled_3d_chassagne_quick").iter().sum::<usize>(), 10);
+        // A quarter of that cell is less than a case may have.
+        assert_eq!(counts("coupled_3d_chassagne_quick").iter().sum::<usize>(), 9);
         assert_eq!(counts("exact_1d_ouriemi"), [1]);
     }
 }

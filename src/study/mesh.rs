@@ -85,7 +85,7 @@ pub(super) fn points(reference: Reference, meshes: Meshes) -> Vec<Point> {
     let point = |series: &str, cells: usize, node: bool| {
         let grid = [format!("{KEY}={cells}"), format!("{key}={node}")];
         Point {
-        case: None,
+            case: None,
             series: series.into(),
             values: vec![cells.to_string()],
             overrides: [&grid[..], &exact_yield()].concat(),

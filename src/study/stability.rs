@@ -341,7 +341,10 @@ fn figure(varied: &[Varied], rows: &[Row], found: &[Found]) -> Figure {
     let curves = Class::ALL.iter().enumerate().map(curve).filter(|c| !c.points.is_empty()).collect();
     Figure {
         stem: "stability".into(),
-        caption: format!("Where the method holds, over {}.", varied.iter().map(|v| v.key.as_str()).collect::<Vec<_>>().join(" and ")),
+        caption: format!(
+            "Where the method holds, over {}.",
+            varied.iter().map(|v| v.key.as_str()).collect::<Vec<_>>().join(" and ")
+        ),
         y: match (map, error) {
             (true, _) => axis(1),
             (false, true) => Axis::log("error; what fails at the top", "1"),
@@ -375,7 +378,8 @@ mod tests {
             let said = plan(&request("laminar_1d_ouriemi", over)).err().map(|e| e.to_string()).unwrap_or_default();
             assert!(said.contains(words), "{said}");
         }
-        let (plan, _) = plan(&request("laminar_1d_ouriemi", &["grid.cells=24,48", "model.form=mixed,two-fluid"])).unwrap();
+        let (plan, _) =
+            plan(&request("laminar_1d_ouriemi", &["grid.cells=24,48", "model.form=mixed,two-fluid"])).unwrap();
         assert_eq!(plan.points.len(), 4);
         assert_eq!(plan.points[3].series, "form = two-fluid");
     }

@@ -36,8 +36,7 @@ fn the_exact_yield_and_the_closed_form_are_on_the_front_of_the_laminar_bed() {
     assert_eq!(scratch.names("c/figures"), ["chart.png"]);
     let table = scratch.read("c/points.csv");
     assert!(!table.contains("NaN") && !table.contains("inf,"));
-    let again =
-        scratch.bedload(["chart", "laminar_1d_ouriemi", "exact_1d_ouriemi", "--out", "c", "--resume"]).exits(0);
+    let again = scratch.bedload(["chart", "laminar_1d_ouriemi", "exact_1d_ouriemi", "--out", "c", "--resume"]).exits(0);
     assert!(again.out.contains("(43 before)"), "{}", again.out);
 }
 
