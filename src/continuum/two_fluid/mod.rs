@@ -1,0 +1,9 @@
+//! Two fluids.
+pub mod cell;
+pub mod face;
+pub mod laws;
+pub mod newton;
+pub mod start;
+pub mod state;
+pub mod steady;
+pub mod system;

@@ -1,0 +1,93 @@
+//! Newton's method on the column at one time.
+
+use super::face::Mobilised;
+use super::state::{Cell, HEAT, LENGTH, LOGIT, Unknowns, VOLUME};
+use super::system::{Column, Linear, Memory};
+
+/// A step changes the logit of the solid fraction and the logarithm of the temperature by this much at most.
+const LONGEST: f64 = 2.0;
+
+/// A Newton iteration that went nowhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stalled {
+    /// smallest residual
+    pub residual: f64,
+    /// iterations made
+    pub iterations: usize,
+}
+
+/// When the iteration ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// largest change of a scaled unknown after which no step follows
+    pub tolerance: f64,
+    /// most iterations
+    pub most: usize,
+}
+
+impl Column {
+    /// Sets the volumes and mixing lengths, which follow from the solid fractions.
+    pub fn accumulate(&self, state: &mut [Unknowns]) {
+        let mut length = 0.0;
+        for (x, dz) in state.iter_mut().zip(&self.widths) {
+            length += Cell::new(&self.laws, x).clearance * dz;
+            x[LENGTH] = length;
+        }
+        let mut volume = 0.0;
+        for (x, dz) in state.iter_mut().zip(&self.widths).rev() {
+            x[VOLUME] = volume;
+            volume += Cell::new(&self.laws, x).phi * dz;
+        }
+    }
+
+    /// Solves for the end of a step, from `state`; the number of iterations and the last residual.
+    ///
+    /// # Errors
+    /// [`Stalled`] if the residual does not fall to `pace.tolerance`.
+    pub fn newton(
+        &self,
+        state: &mut [Unknowns],
+        memory: &Memory,
+        linear: &mut Linear,
+        pace: Pace,
+    ) -> Result<(usize, f64), Stalled> {
+        let mut best = f64::INFINITY;
+        let rate = self.laws.floors.rate;
+        let mut shear: Vec<f64> = self.shear(state).collect();
+        let mut mobilised: Vec<Mobilised> = shear.iter().map(|shear| Mobilised(shear / shear.hypot(rate))).collect();
+        for iteration in 0..pace.most {
+            self.linearise(state, memory, &mobilised, linear);
+            let norm = linear.norm(state);
+            if !norm.is_finite() {
+                return Err(Stalled { residual: best, iterations: iteration });
+            }
+            best = best.min(norm);
+            let Ok(step) = linear.step(state) else { return Err(Stalled { residual: best, iterations: iteration }) };
+            let mut largest: f64 = 0.0;
+            for (x, step) in state.iter_mut().zip(step.as_chunks::<{ super::state::SIZE }>().0) {
+                for (k, (value, step)) in x.iter_mut().zip(step).enumerate() {
+                    match k {
+                        VOLUME | LENGTH => {}
+                        LOGIT | HEAT => {
+                            largest = largest.max(step.abs());
+                            *value += step.clamp(-LONGEST, LONGEST);
+                        }
+                        _ => {
+                            largest = largest.max(step.abs());
+                            *value += step;
+                        }
+                    }
+                }
+            }
+            self.accumulate(state);
+            for ((r, from), to) in mobilised.iter_mut().zip(&mut shear).zip(self.shear(state)) {
+                *r = r.after(*from, to, rate);
+                *from = to;
+            }
+            if largest <= pace.tolerance {
+                return Ok((iteration + 1, norm));
+            }
+        }
+        Err(Stalled { residual: best, iterations: pace.most })
+    }
+}

@@ -1,0 +1,211 @@
+//! The steady flow: a coarse column marches from a guess through pseudo-time until Newton's method takes over, and hands its
+//! solution to the wanted column. The equations are those of the transient with a vanishing rate.
+
+use super::newton::{Pace, Stalled};
+use super::start::Guess;
+use super::state::Unknowns;
+use super::system::{Column, Linear, Memory, carried};
+
+/// Cells over the Shields number's usual ones on which the march goes; and factors of the thickness of the guess, tried in turn.
+const TRIALS: [(usize, f64); 6] = [(80, 1.0), (120, 1.0), (80, 1.6), (120, 0.6), (160, 1.0), (60, 1.0)];
+/// Drives from which the flow is followed down to the wanted one, over it.
+const STRONGER: [f64; 3] = [1.5, 2.5, 4.0];
+/// First, smallest and largest step of pseudo-time.
+const STEPS: (f64, f64, f64) = (0.1, 1e-6, 3e2);
+/// Most iterations of one march.
+const MOST: usize = 1500;
+/// Pace of a step of the march, of the last solution, and of its refinement.
+const ROUGH: Pace = Pace { tolerance: 1e-2, most: 8 };
+const FINE: Pace = Pace { tolerance: 1e-8, most: 14 };
+/// Share of a step of the drive that is taken first, and the smallest one.
+const WALK: (f64, f64) = (0.1, 1e-3);
+
+/// A steady flow.
+#[derive(Clone, Debug)]
+pub struct Steady {
+    /// its state
+    pub state: Vec<Unknowns>,
+    /// residuals of the last Newton iterations, of all stages
+    pub history: Vec<f64>,
+    /// Newton iterations of all stages
+    pub iterations: usize,
+}
+
+/// The column in fewer cells of equal heights.
+#[must_use]
+pub fn coarser(column: &Column, cells: usize) -> Column {
+    let height: f64 = column.widths.iter().sum();
+    let cells = cells.min(column.cells());
+    Column { widths: vec![height / cells as f64; cells], ..column.clone() }
+}
+
+/// One step of backward Euler from `state`.
+#[must_use]
+pub fn euler(column: &Column, state: &[Unknowns], dt: f64) -> Memory {
+    let past = state.iter().map(|x| carried(&column.laws, x).map(|q| -q / dt)).collect();
+    Memory { rate: 1.0 / dt, past }
+}
+
+/// Follows the flow from `state` until it is steady. `stop` is asked before each step.
+///
+/// # Errors
+/// [`Stalled`] if the steps become too small or too many.
+pub fn march(
+    column: &Column,
+    mut state: Vec<Unknowns>,
+    iterations: &mut usize,
+    history: &mut Vec<f64>,
+    stop: &mut impl FnMut() -> bool,
+) -> Result<Vec<Unknowns>, Stalled> {
+    let mut linear = Linear::new(column.cells());
+    let (mut dt, least, most) = STEPS;
+    let (start, mut best) = (*iterations, f64::INFINITY);
+    while *iterations - start < MOST && dt > least && !stop() {
+        let mut next = state.clone();
+        match column.newton(&mut next, &euler(column, &state, dt), &mut linear, ROUGH) {
+            Ok((made, norm)) => {
+                *iterations += made;
+                history.push(norm);
+                state = next;
+                if made <= 3 {
+                    dt *= 3.0;
+                } else if made <= 5 {
+                    dt *= 1.5;
+                }
+            }
+            Err(stalled) => {
+                *iterations += stalled.iterations;
+                dt *= 0.25;
+            }
+        }
+        if dt > most {
+            match settle(column, &mut state.clone(), &mut linear, history) {
+                Ok((state, made)) => {
+                    *iterations += made;
+                    return Ok(state);
+                }
+                Err(stalled) => {
+                    *iterations += stalled.iterations;
+                    best = best.min(stalled.residual);
+                    dt *= 0.1;
+                }
+            }
+        }
+    }
+    Err(Stalled { residual: best, iterations: *iterations })
+}
+
+/// The steady flow near `state`.
+fn settle(
+    column: &Column,
+    state: &mut Vec<Unknowns>,
+    linear: &mut Linear,
+    history: &mut Vec<f64>,
+) -> Result<(Vec<Unknowns>, usize), Stalled> {
+    let (made, norm) = column.newton(state, &Memory::steady(column.cells()), linear, FINE)?;
+    history.push(norm);
+    Ok((std::mem::take(state), made))
+}
+
+/// The steady flow of `column` over a bed of the solid fraction `phi` at rest, driven with the Shields number `shields`.
+///
+/// # Errors
+/// [`Stalled`] with the smallest residual if no way leads to a steady flow.
+pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut() -> bool) -> Result<Steady, Stalled> {
+    let (mut iterations, mut history) = (0, Vec::new());
+    let mut last = Stalled { residual: f64::INFINITY, iterations: 0 };
+    for (cells, thickness) in TRIALS {
+        let coarse = coarser(column, cells);
+        let guess = coarse.guess(phi, Guess { shields, thickness });
+        let found = march(&coarse, guess, &mut iterations, &mut history, &mut stop)
+            .and_then(|rough| refine(column, &coarse, &rough, &mut iterations, &mut history, &mut stop));
+        match found {
+            Ok(state) => return Ok(Steady { state, history, iterations }),
+            Err(stalled) if stalled.residual < last.residual => last = stalled,
+            Err(_) => {}
+        }
+        if stop() {
+            break;
+        }
+    }
+    for stronger in STRONGER {
+        if stop() {
+            break;
+        }
+        let coarse = coarser(column, TRIALS[0].0);
+        if let Some(rough) = walk(&coarse, phi, shields, stronger, &mut iterations, &mut history, &mut stop)
+            && let Ok(state) = refine(column, &coarse, &rough, &mut iterations, &mut history, &mut stop)
+        {
+            return Ok(Steady { state, history, iterations });
+        }
+    }
+    Err(Stalled { iterations, ..last })
+}
+
+/// From the solution `rough` on the column `coarse` to that on `column`.
+fn refine(
+    column: &Column,
+    coarse: &Column,
+    rough: &[Unknowns],
+    iterations: &mut usize,
+    history: &mut Vec<f64>,
+    stop: &mut impl FnMut() -> bool,
+) -> Result<Vec<Unknowns>, Stalled> {
+    if coarse.widths == column.widths {
+        return Ok(rough.to_vec());
+    }
+    // Cells at most doubled at a time: what lies between is close enough for Newton's method.
+    let next = if column.cells() > 2 * coarse.cells() { coarser(column, 2 * coarse.cells()) } else { column.clone() };
+    let from = next.transfer(coarse, rough);
+    let mut linear = Linear::new(next.cells());
+    let state = match settle(&next, &mut from.clone(), &mut linear, history) {
+        Ok((state, made)) => {
+            *iterations += made;
+            state
+        }
+        Err(stalled) => {
+            *iterations += stalled.iterations;
+            march(&next, from, iterations, history, stop)?
+        }
+    };
+    refine(column, &next, &state, iterations, history, stop)
+}
+
+/// The flow under a `stronger` drive, followed down to the wanted one.
+fn walk(
+    column: &Column,
+    phi: f64,
+    shields: f64,
+    stronger: f64,
+    iterations: &mut usize,
+    history: &mut Vec<f64>,
+    stop: &mut impl FnMut() -> bool,
+) -> Option<Vec<Unknowns>> {
+    let driven = |factor: f64| {
+        let mut driven = column.clone();
+        driven.laws.drive = column.laws.drive.map(|drive| drive * factor);
+        driven
+    };
+    let guess = column.guess(phi, Guess { shields: shields * stronger, thickness: 1.0 });
+    let mut state = march(&driven(stronger), guess, iterations, history, stop).ok()?;
+    let mut linear = Linear::new(column.cells());
+    let (mut at, mut step) = (stronger.ln(), WALK.0);
+    while at > 0.0 {
+        let to = (at - step).max(0.0);
+        match settle(&driven(to.exp()), &mut state.clone(), &mut linear, history) {
+            Ok((next, made)) => {
+                *iterations += made;
+                (state, at) = (next, to);
+                step *= 1.5;
+            }
+            Err(stalled) => {
+                *iterations += stalled.iterations;
+                step *= 0.5;
+                if step < WALK.1 || stop() {
+                    return None;
+                }
+            }
+        }
+    }
+    Some(state)
+}
