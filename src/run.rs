@@ -5,7 +5,7 @@ use crate::closures::dilatancy::{phi_i, phi_iv};
 use crate::closures::drag::{carman_kozeny, dallavalle, dallavalle_grain};
 use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
-use crate::continuum::{laminar, sheet_flow};
+use crate::continuum::{laminar, sheet_flow, two_fluid};
 use crate::discrete::{bed as grain_bed, couple, impact, trials};
 use crate::problem::{Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
@@ -27,6 +27,7 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::Laminar(bed) => laminar::run(bed, problem.cells, watch),
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
         Model::SheetFlow(flow) => sheet_flow::run(flow, problem.cells, watch),
+        Model::TwoFluid(flow) => two_fluid::run(flow, problem.cells, watch),
         Model::Grains(bed) => grain_bed::run(bed, watch),
         Model::Coupled(flow) => couple::run(flow, watch),
         Model::Impact(one) => impact::run(one, watch),
@@ -46,6 +47,7 @@ pub fn equations(problem: &Problem) -> String {
         Model::Laminar(bed) => laminar::equations(bed),
         Model::Bingham(plane) => laminar::bingham_equations(plane),
         Model::SheetFlow(flow) => sheet_flow::equations(flow),
+        Model::TwoFluid(flow) => two_fluid::equations(flow),
         Model::Grains(bed) => grain_bed::equations(bed),
         Model::Coupled(flow) => couple::equations(flow),
         Model::Impact(one) => impact::equations(one),
@@ -65,6 +67,13 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
+        Model::TwoFluid(flow) => {
+            let mut laws = vec![flow.granular.info()];
+            laws.extend(flow.granular.parts());
+            laws.extend([flow.elastic.info(), flow.static_friction.info(), &dallavalle_grain::INFO]);
+            laws.extend([flow.mixing_length.info(), flow.dispersion.info()]);
+            laws
+        }
         Model::Grains(_) | Model::Impact(_) | Model::Trial(_) => vec![&linear_spring::INFO],
         Model::Coupled(flow) => vec![
             &linear_spring::INFO,

@@ -70,6 +70,7 @@ impl Fault {
             }
             Self::Floating { .. } => Some("grains.density must exceed fluid.density".into()),
             Self::IterationNeedsCreep => Some("give [regularisation] a law and a lambda, or take newton".into()),
+            Self::NeedsTime => Some("remove flow.oscillation, or set model.state = \"transient\"".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
             Self::CheckLevel { column: true, .. } => Some("for example at = \"10 mm\"".into()),
             Self::CheckLevel { .. } => Some("remove it".into()),

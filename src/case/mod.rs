@@ -21,6 +21,7 @@ pub mod schema;
 pub mod sheet;
 pub mod shipped;
 pub mod tables;
+pub mod two_fluid;
 mod wording;
 
 pub use diagnose::nearest;

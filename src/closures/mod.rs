@@ -6,6 +6,7 @@
 
 pub mod contact;
 pub mod dilatancy;
+pub mod dispersion;
 pub mod drag;
 pub mod fluctuation;
 pub mod friction;
@@ -128,6 +129,8 @@ pub static CATALOGUE: &[&Info] = &[
     &kinetic::elastic::JOHNSON_JACKSON,
     &kinetic::static_friction::FIT,
     &kinetic::static_friction::GIVEN,
+    &dispersion::NONE,
+    &dispersion::GRADIENT,
 ];
 
 #[cfg(test)]

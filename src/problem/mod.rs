@@ -5,6 +5,7 @@ mod coupled;
 mod grains;
 mod others;
 mod sheet;
+mod two_fluid;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
@@ -12,6 +13,7 @@ pub use coupled::{Coupled, Surface};
 pub use grains::{GrainBed, Impact, Trial};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
+pub use two_fluid::{FluidStress, State, TwoFluid};
 
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;
@@ -48,6 +50,8 @@ pub enum Model {
     Bingham(RegularisedPlane),
     /// two-layer sheet flow
     SheetFlow(SheetFlow),
+    /// grains and fluid as two fluids
+    TwoFluid(TwoFluid),
     /// a bed of spheres, grain by grain
     Grains(GrainBed),
     /// grains in a fluid that drives them
@@ -105,6 +109,9 @@ impl Problem {
             Scene::Bingham(scene) => (others::bingham(scene, &mut faults).map(Model::Bingham), scene.grid.cells),
             Scene::SheetFlow(scene) => {
                 (sheet::sheet_flow(scene, case.model, &mut faults).map(Model::SheetFlow), scene.grid.cells)
+            }
+            Scene::TwoFluid(scene) => {
+                (two_fluid::two_fluid(scene, case.model, &mut faults).map(Model::TwoFluid), scene.grid.cells)
             }
             Scene::GrainsBed(scene) => {
                 let bed = grains::bed(scene, &mut faults);

@@ -45,6 +45,13 @@ catalogue! {
     RATIO_R = "rearrangement_ratio", "rearrangement ratio", "r", "1", "free-fall over turbulent rearrangement time";
     CUMULATIVE_FLUX = "cumulative_flux_m2_s", "cumulative flux", "Π", "m²/s", "integral of the solid flux density from the bottom";
     EDDY_VISCOSITY = "eddy_viscosity_m2_s", "eddy viscosity", "ν_t", "m²/s", "kinematic eddy viscosity";
+    TAU_CONTACT = "tau_particle_contact_Pa", "shear stress of enduring contacts", "τ_el", "Pa", "part of the intergranular shear stress that does not come from collisions and fluctuations";
+    P_CONTACT = "p_particle_contact_Pa", "pressure of enduring contacts", "p_el", "Pa", "part of the particle pressure that does not come from collisions and fluctuations";
+    RADIAL = "radial_distribution", "radial distribution function", "g₀", "1", "at contact: how much likelier than in a dilute gas two grains are to touch";
+    PRODUCTION = "fluctuation_production_W_m3", "production of fluctuation energy", "τ_kin du_p/dz", "W/m³", "work of the stress of moving grains on their mean shear";
+    DIFFUSION = "fluctuation_diffusion_W_m3", "diffusion of fluctuation energy", "-dq/dz", "W/m³", "what the flux of fluctuation energy brings";
+    CONTACT_LOSS = "fluctuation_contact_loss_W_m3", "loss of fluctuation energy by contacts", "-Γ", "W/m³", "what contacts dissipate, positive";
+    DRAG_LOSS = "fluctuation_drag_loss_W_m3", "loss of fluctuation energy by drag", "-J", "W/m³", "what the drag takes from the velocity fluctuations, positive";
     GRANULAR_TEMPERATURE = "granular_temperature_m2_s2", "granular temperature", "T", "m²/s²", "a third of the mean square of the grain velocity about its mean in the slice";
     U_FLUID_STDERR = "u_fluid_m_s_stderr", "standard error of the fluid velocity", "σ(u_f)", "m/s", "by block averaging";
     TAU_REYNOLDS_STDERR = "tau_reynolds_Pa_stderr", "standard error of the Reynolds stress", "σ(R_xz)", "Pa", "by block averaging";
@@ -162,6 +169,26 @@ catalogue! {
     PRESSURE_ERROR = "pressure_error", "error of the static pressure", "max |ΔP|/P", "1", "particle pressure minus the weight of the grains above, both averaged over a diameter, relative to the weight of all";
     FRICTION_BULK = "friction_bulk", "friction within the flow", "τ_p/P_p", "1", "mean between a quarter and three quarters of the bed";
     INERTIAL_NUMBER_BULK = "inertial_number_bulk", "inertial number within the flow", "I", "1", "d times the difference of velocity over the height between a quarter and three quarters of the bed, times sqrt(ρ_p/P_p)";
+    LAYER_BOTTOM = "layer_bottom_m", "bottom of the moving layer", "z_1", "m", "elevation below which 1 % of the grains are transported";
+    LAYER_TOP = "layer_top_m", "top of the moving layer", "z_99", "m", "elevation below which 99 % of the grains are transported";
+    LAYER_THICKNESS = "layer_thickness_m", "thickness of the moving layer", "δ", "m", "height within which 98 % of the grains are transported, between those with 1 % below and 1 % above";
+    TEMPERATURE_MAX = "granular_temperature_max_m2_s2", "largest granular temperature", "T_max", "m²/s²", "where the solid fraction is above 0.001";
+    TEMPERATURE_MAX_SCALED = "granular_temperature_max_dimensionless", "largest granular temperature, dimensionless", "T_max*", "1", "T_max/((ρ_p/ρ_f - 1) g d)";
+    TEMPERATURE_MAX_LEVEL = "granular_temperature_max_level_m", "level of the largest granular temperature", "z(T_max)", "m", "elevation of the largest granular temperature";
+    EFFECTIVE_RESTITUTION = "effective_restitution", "effective restitution coefficient", "e_eff", "1", "restitution coefficient in the dissipation by contacts";
+    STATIC_FRICTION = "static_friction", "static friction", "μ_s", "1", "stress ratio of enduring contacts";
+    GROWTH_RATE = "growth_rate_1_s", "growth rate of a disturbance", "σ", "1/s", "of the small disturbance of the steady flow that grows fastest; the flow is unstable where it is positive";
+    GROWTH_FREQUENCY = "growth_frequency_1_s", "angular frequency of that disturbance", "ω", "1/s", "0 where it does not oscillate";
+    RATE_MEAN = "transport_rate_mean_m2_s", "mean transport rate", "<q_p>", "m²/s", "over the second half of the simulated time";
+    RATE_MEAN_SCALED = "transport_rate_mean_dimensionless", "mean dimensionless transport rate", "<Q*>", "1", "over the second half of the simulated time";
+    RATE_SWING = "transport_rate_swing", "swing of the transport rate", "Δq_p/<q_p>", "1", "largest minus smallest of the samples in the second half of the simulated time, over their mean";
+    SOLIDS_DRIFT = "solids_drift", "drift of the solid volume", "max |ΔV|/V", "1", "largest deviation of the solid volume from that at rest at any step, relative to it";
+    STEPS = "time_steps", "time steps", "N", "1", "steps kept";
+    STEPS_REFUSED = "time_steps_refused", "time steps refused", "N_0", "1", "steps taken again, shorter";
+    ITERATIONS = "newton_iterations", "Newton iterations", "N_N", "1", "linear systems solved, of all stages";
+    SOLID_VOLUME = "solid_volume_m", "solid volume", "V", "m", "integral of φ over z";
+    SEEPAGE = "seepage_velocity_m_s", "seepage velocity", "u_f(0)", "m/s", "velocity of the fluid through the lowest cell of the bed";
+    UNLIMITED = "unlimited_from_phi", "solid fraction from which saltation limits nothing", "φ_0", "1", "lowest solid fraction of the flow at which a kinetic part of the theory is not positive";
     REYNOLDS = "reynolds", "Reynolds number", "Re", "1", "ρ_f U_m H/η";
 }
 

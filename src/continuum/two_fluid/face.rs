@@ -68,6 +68,8 @@ pub struct Face<T> {
     pub kinetic: T,
     /// stress of enduring contacts
     pub contact: T,
+    /// eddy viscosity of the fluid
+    pub eddy: T,
     /// shear rate of the grains
     pub shear: T,
     /// flux of fluctuation energy upward
@@ -171,7 +173,7 @@ impl Setting<'_> {
         below[HEAT] = heated(halves.lower, lower.kinetic, 1.0);
         above[HEAT] = heated(halves.upper, upper.kinetic, -1.0);
         (below[LENGTH], above[LENGTH]) = (lower.length, -lower.length);
-        Face { viscous, turbulent, kinetic, contact, shear, flux, passing, lower: below, upper: above }
+        Face { viscous, turbulent, kinetic, contact, eddy, shear, flux, passing, lower: below, upper: above }
     }
 
     /// Viscous and turbulent stress of the fluid, and its eddy viscosity, between two cells.
@@ -252,6 +254,7 @@ impl Setting<'_> {
             turbulent: zero,
             kinetic,
             contact,
+            eddy: zero,
             shear,
             flux: zero,
             passing: zero,

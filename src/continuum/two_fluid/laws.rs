@@ -2,8 +2,9 @@
 //! rho_f, stress (rho_p - rho_f) g d = rho_f V^2, and the granular temperature in V^2.
 
 use crate::closures::drag::DallavalleGrain;
-use crate::closures::kinetic::{Inertial, JohnsonJackson, Kinetic};
-use crate::closures::mixing_length::MixingLength;
+use crate::closures::kinetic::{Elastic, Granular, Inertial, JohnsonJackson, Kinetic};
+use crate::closures::mixing_length::{LowSubmergence, MixingLength};
+use crate::problem::{FluidStress, TwoFluid};
 
 /// Stresses of grains that move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,4 +55,49 @@ pub struct Floors {
     pub rate: f64,
     /// solid fraction below which grains lose their weight
     pub phi: f64,
+}
+
+impl Laws {
+    /// The laws of `flow`, scaled.
+    #[must_use]
+    pub fn scaled(flow: &TwoFluid) -> Self {
+        let (d, velocity, stress) = (flow.d, flow.velocity_scale(), flow.stress_scale());
+        let ratio = flow.rho_p / flow.rho_f;
+        // rho_f g sin(beta), and rho_p g sin(beta), over (rho_p - rho_f) g per volume; the second by the ratio of densities.
+        let drive = flow.beta.sin() / (ratio - 1.0);
+        let moving = match flow.granular {
+            Granular::MuI(law) => Moving::Inertial(law),
+            Granular::GarzoDufty(law) => Moving::Kinetic(law.kinetic(flow.e, flow.mu_p)),
+            Granular::FrictionalCollisional(law) => Moving::Kinetic(law.kinetic(flow.e, flow.mu_p)),
+        };
+        let elastic = match flow.elastic {
+            Elastic::JohnsonJackson(law) => JohnsonJackson { p_0: law.p_0 / stress, ..law },
+            Elastic::None => JohnsonJackson { p_0: 0.0, phi_rlp: flow.phi_max },
+        };
+        Self {
+            ratio,
+            weight: flow.beta.cos(),
+            drive: [drive; 2],
+            nu: flow.eta / (flow.rho_f * velocity * d),
+            moving,
+            elastic,
+            mu_s: flow.static_friction.mu_s(flow.mu_p),
+            phi_max: flow.phi_max,
+            drag: flow.drag,
+            mixing_length: match flow.mixing_length {
+                MixingLength::LowSubmergence(law) => {
+                    let (scale, least) = (law.scale / d, law.least / d);
+                    MixingLength::LowSubmergence(LowSubmergence { scale, least, ..law })
+                }
+                other => other,
+            },
+            share: flow.fluid_stress == FluidStress::Share,
+            dispersion: flow.dispersion.strength(),
+            floors: Floors {
+                temperature: flow.temperature_floor / (velocity * velocity),
+                rate: flow.rate_floor * d / velocity,
+                phi: flow.phi_floor,
+            },
+        }
+    }
 }

@@ -1,7 +1,7 @@
 //! Newton's method on the column at one time.
 
 use super::face::Mobilised;
-use super::state::{Cell, HEAT, LENGTH, LOGIT, Unknowns, VOLUME};
+use super::state::{Cell, HEAT, LENGTH, LOGIT, SIZE, Unknowns, VOLUME, solid};
 use super::system::{Column, Linear, Memory};
 
 /// A step changes the logit of the solid fraction and the logarithm of the temperature by this much at most.
@@ -26,6 +26,12 @@ pub struct Pace {
 }
 
 impl Column {
+    /// Solid volume of `state`.
+    #[must_use]
+    pub fn held(&self, state: &[Unknowns]) -> f64 {
+        state.iter().zip(&self.widths).map(|(x, dz)| solid(&self.laws, x) * dz).sum()
+    }
+
     /// Sets the volumes and mixing lengths, which follow from the solid fractions.
     pub fn accumulate(&self, state: &mut [Unknowns]) {
         let mut length = 0.0;
@@ -36,7 +42,7 @@ impl Column {
         let mut volume = 0.0;
         for (x, dz) in state.iter_mut().zip(&self.widths).rev() {
             x[VOLUME] = volume;
-            volume += Cell::new(&self.laws, x).phi * dz;
+            volume += solid(&self.laws, x) * dz;
         }
     }
 
@@ -64,7 +70,7 @@ impl Column {
             best = best.min(norm);
             let Ok(step) = linear.step(state) else { return Err(Stalled { residual: best, iterations: iteration }) };
             let mut largest: f64 = 0.0;
-            for (x, step) in state.iter_mut().zip(step.as_chunks::<{ super::state::SIZE }>().0) {
+            for (x, step) in state.iter_mut().zip(step.as_chunks::<SIZE>().0) {
                 for (k, (value, step)) in x.iter_mut().zip(step).enumerate() {
                     match k {
                         VOLUME | LENGTH => {}

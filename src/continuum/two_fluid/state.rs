@@ -140,3 +140,9 @@ impl Cell<Dual<SIZE>> {
         }
     }
 }
+
+/// Solid fraction of a cell.
+#[must_use]
+pub fn solid(laws: &Laws, x: &Unknowns) -> f64 {
+    laws.phi_max * logistic(-x[LOGIT])
+}

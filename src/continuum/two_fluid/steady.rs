@@ -39,6 +39,11 @@ pub fn coarser(column: &Column, cells: usize) -> Column {
     Column { widths: vec![height / cells as f64; cells], ..column.clone() }
 }
 
+/// How far a march with the step `dt` is, from 0 to 1.
+fn share(dt: f64) -> f64 {
+    (dt / STEPS.0).max(1.0).ln() / (STEPS.2 / STEPS.0).ln()
+}
+
 /// One step of backward Euler from `state`.
 #[must_use]
 pub fn euler(column: &Column, state: &[Unknowns], dt: f64) -> Memory {
@@ -55,12 +60,12 @@ pub fn march(
     mut state: Vec<Unknowns>,
     iterations: &mut usize,
     history: &mut Vec<f64>,
-    stop: &mut impl FnMut() -> bool,
+    stop: &mut impl FnMut(f64) -> bool,
 ) -> Result<Vec<Unknowns>, Stalled> {
     let mut linear = Linear::new(column.cells());
     let (mut dt, least, most) = STEPS;
     let (start, mut best) = (*iterations, f64::INFINITY);
-    while *iterations - start < MOST && dt > least && !stop() {
+    while *iterations - start < MOST && dt > least && !stop(share(dt)) {
         let mut next = state.clone();
         match column.newton(&mut next, &euler(column, &state, dt), &mut linear, ROUGH) {
             Ok((made, norm)) => {
@@ -111,7 +116,7 @@ fn settle(
 ///
 /// # Errors
 /// [`Stalled`] with the smallest residual if no way leads to a steady flow.
-pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut() -> bool) -> Result<Steady, Stalled> {
+pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut(f64) -> bool) -> Result<Steady, Stalled> {
     let (mut iterations, mut history) = (0, Vec::new());
     let mut last = Stalled { residual: f64::INFINITY, iterations: 0 };
     for (cells, thickness) in TRIALS {
@@ -124,12 +129,12 @@ pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut() -> 
             Err(stalled) if stalled.residual < last.residual => last = stalled,
             Err(_) => {}
         }
-        if stop() {
+        if stop(0.0) {
             break;
         }
     }
     for stronger in STRONGER {
-        if stop() {
+        if stop(0.0) {
             break;
         }
         let coarse = coarser(column, TRIALS[0].0);
@@ -149,7 +154,7 @@ fn refine(
     rough: &[Unknowns],
     iterations: &mut usize,
     history: &mut Vec<f64>,
-    stop: &mut impl FnMut() -> bool,
+    stop: &mut impl FnMut(f64) -> bool,
 ) -> Result<Vec<Unknowns>, Stalled> {
     if coarse.widths == column.widths {
         return Ok(rough.to_vec());
@@ -179,7 +184,7 @@ fn walk(
     stronger: f64,
     iterations: &mut usize,
     history: &mut Vec<f64>,
-    stop: &mut impl FnMut() -> bool,
+    stop: &mut impl FnMut(f64) -> bool,
 ) -> Option<Vec<Unknowns>> {
     let driven = |factor: f64| {
         let mut driven = column.clone();
@@ -201,7 +206,7 @@ fn walk(
             Err(stalled) => {
                 *iterations += stalled.iterations;
                 step *= 0.5;
-                if step < WALK.1 || stop() {
+                if step < WALK.1 || stop(0.0) {
                     return None;
                 }
             }

@@ -156,6 +156,28 @@ impl Linear {
         }
     }
 
+    /// Residuals of all rows.
+    #[must_use]
+    pub fn residual(&self) -> &[f64] {
+        &self.residual
+    }
+
+    /// The derivatives along the direction that `of` gives to each unknown of each cell.
+    #[must_use]
+    pub fn times(&self, of: impl Fn(usize, usize) -> f64) -> Vec<f64> {
+        let n = self.blocks.len();
+        let mut product = vec![0.0; SIZE * n];
+        for (i, blocks) in self.blocks.iter().enumerate() {
+            for (side, block) in blocks.iter().enumerate() {
+                let Some(j) = (i + side).checked_sub(1).filter(|j| *j < n) else { continue };
+                for (row, slopes) in block.iter().enumerate() {
+                    product[SIZE * i + row] += slopes.iter().enumerate().map(|(k, slope)| slope * of(j, k)).sum::<f64>();
+                }
+            }
+        }
+        product
+    }
+
     fn add<const N: usize>(&mut self, cell: usize, block: usize, first: usize, rows: &[Dual<N>; SIZE]) {
         let target = &mut self.blocks[cell][block];
         for (row, dual) in target.iter_mut().zip(rows) {
@@ -243,7 +265,24 @@ impl Linear {
     /// # Errors
     /// [`Singular`] if the matrix is.
     pub fn step(&mut self, state: &[Unknowns]) -> Result<Vec<f64>, Singular> {
-        let n = self.blocks.len();
+        self.factor(state)?;
+        let mut step: Vec<f64> = self.residual.iter().map(|x| -x).collect();
+        self.solve(&mut step);
+        Ok(step)
+    }
+
+    /// Solves with the factors of [`Self::factor`], in place: from a side in the units of the residuals to unknowns in those of
+    /// [`unit`].
+    pub fn solve(&self, side: &mut [f64]) {
+        side.iter_mut().zip(&self.scales).for_each(|(x, scale)| *x /= scale);
+        self.matrix.solve(side);
+    }
+
+    /// Factors the derivatives, after [`Self::norm`].
+    ///
+    /// # Errors
+    /// [`Singular`] if the matrix is.
+    pub fn factor(&mut self, state: &[Unknowns]) -> Result<(), Singular> {
         self.matrix.clear();
         for (i, blocks) in self.blocks.iter().enumerate() {
             for (side, (block, x)) in blocks.iter().zip(neighbours(state, i)).enumerate() {
@@ -257,10 +296,7 @@ impl Linear {
                 }
             }
         }
-        self.matrix.factor()?;
-        let mut step: Vec<f64> = (0..SIZE * n).map(|at| -self.residual[at] / self.scales[at]).collect();
-        self.matrix.solve(&mut step);
-        Ok(step)
+        self.matrix.factor()
     }
 }
 
