@@ -84,6 +84,7 @@ fn points(name: &str, colour: usize, marker: Marker, points: Vec<(f64, f64)>) ->
         colour,
         line: None,
         marker: Some(marker),
+        ..Curve::default()
     }
 }
 
@@ -94,7 +95,7 @@ fn bar(colour: usize, x: f64, low: f64, high: f64) -> Curve {
         points: vec![Some((x, low)), Some((x, high))],
         colour,
         line: Some(Dash::Solid),
-        marker: None,
+        ..Curve::default()
     }
 }
 

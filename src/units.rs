@@ -2,7 +2,11 @@
 //! Inside the library every number is SI. A unit is a product of powers of SI symbols; decimal prefixes are
 //! kept as an exponent of ten and applied to the decimal text, so that `"6.5 mm"` is exactly the same `f64` as `6.5e-3`.
 
+mod readable;
+
 use std::fmt;
+
+pub use readable::{readable, readable_mean, readable_unit, significant};
 
 /// Powers of metre, kilogram and second. Angles and ratios are dimensionless.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -315,46 +319,6 @@ fn split_number(text: &str) -> Option<(&str, i64, &str)> {
     Some((mantissa, 0, &text[i..]))
 }
 
-/// `value` with `digits` significant digits, in decimal or scientific notation, whichever a reader expects.
-#[must_use]
-pub fn significant(value: f64, digits: usize) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return format!("{value}");
-    }
-    let text = format!("{value:.*e}", digits.max(1) - 1);
-    let exponent: i32 = text.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
-    if (-4..6).contains(&exponent) {
-        let decimals = usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0);
-        format!("{value:.decimals$}")
-    } else {
-        text
-    }
-}
-
-/// A decimal multiple of `unit` in which a number of size `magnitude` is easy to read: factor from SI and its symbol.
-#[must_use]
-pub fn readable_unit(magnitude: f64, unit: &'static str) -> (f64, &'static str) {
-    let size = magnitude.abs();
-    match unit {
-        "m" if size > 0.0 && size < 1e-4 => (1e6, "\u{b5}m"),
-        "m" if size > 0.0 && size < 0.1 => (1e3, "mm"),
-        "m/s" if size > 0.0 && size < 1e-4 => (1e6, "\u{b5}m/s"),
-        "m/s" if size > 0.0 && size < 0.1 => (1e3, "mm/s"),
-        "m²/s" if size > 0.0 && size < 1e-3 => (1e6, "mm²/s"),
-        "Pa" if size > 0.0 && size < 0.01 => (1e3, "mPa"),
-        "Pa" if size >= 1e4 => (1e-3, "kPa"),
-        _ => (1.0, unit),
-    }
-}
-
-/// `value` in a readable multiple of `unit` with four significant digits, such as `12.10 mm`.
-#[must_use]
-pub fn readable(value: f64, unit: &'static str) -> String {
-    let (factor, symbol) = readable_unit(value, unit);
-    let number = significant(value * factor, 4);
-    if symbol.is_empty() || symbol == "1" { number } else { format!("{number} {symbol}") }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -388,13 +352,5 @@ mod tests {
         );
         let Err(UnitError::UnknownUnit { nearest, .. }) = parse_quantity("6 MM", "m") else { panic!("not refused") };
         assert_eq!(nearest.as_deref(), Some("mm"));
-    }
-
-    #[test]
-    fn numbers_are_displayed_as_a_reader_expects() {
-        assert_eq!(readable(0.012_103_4, "m"), "12.10 mm");
-        assert_eq!(significant(3.310_3e-5, 4), "3.310e-5");
-        assert_eq!(significant(0.056_759, 4), "0.05676");
-        assert_eq!(readable(0.43, "1"), "0.4300");
     }
 }

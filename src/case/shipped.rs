@@ -52,6 +52,7 @@ pub static CASES: &[(&str, &str)] = shipped![
     "sheet_1d_sumer82",
     "sheet_1d_sumer91",
     "sheet_1d_sumer99",
+    "sheet_1d_theta06",
     "sheet_1d_type_a",
     "sheet_1d_type_b",
     "trial_1d_bouncing",

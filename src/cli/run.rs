@@ -196,7 +196,8 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
 fn trust(summary: &Summary) -> String {
     let known = summary.results.iter().find(|(name, _)| *name == quantity::TRANSPORT_RATE.name);
     if let Some(error) = known.and_then(|(_, reported)| reported.stderr) {
-        return format!("± {}", readable(error, quantity::TRANSPORT_RATE.unit));
+        let value = known.and_then(|(_, reported)| reported.value).unwrap_or(f64::NAN);
+        return format!("± {} %", significant(100.0 * error / value.abs(), 2));
     }
     let lambda = |key: &str| summary.regularisation.get(key).and_then(Value::as_f64);
     let lambda = lambda("lambda_scaled").or_else(|| lambda("lambda_1_s"));

@@ -177,7 +177,8 @@ impl Subject {
         let Outcome { results, validity, .. } = outcome;
         let (name, source) = (name.into(), source.into());
         let (kind, notes) = (Kind::Case, Vec::new());
-        Ok(Self { name, label: model, kind, source, notes, profile, errors: None, results, validity, solve_s })
+        let errors = profile.standard_errors();
+        Ok(Self { name, label: model, kind, source, notes, profile, errors, results, validity, solve_s })
     }
 
     /// A run as its folder `source` holds it.
@@ -191,7 +192,8 @@ impl Subject {
         let profile = profile.ok_or_else(|| CompareError::NoProfile { subject: source.into() })?;
         let Summary { results, validity, case: name, model: label, .. } = summary;
         let (kind, source, notes) = (Kind::Run, source.into(), Vec::new());
-        Ok(Self { name, label, kind, source, notes, profile, errors: None, results, validity, solve_s: 0.0 })
+        let errors = profile.standard_errors();
+        Ok(Self { name, label, kind, source, notes, profile, errors, results, validity, solve_s: 0.0 })
     }
 
     fn lacks(&self, quantity: &'static Quantity, needed_by: &'static str) -> CompareError {
@@ -242,6 +244,7 @@ pub fn compare(mut subjects: Vec<Subject>, align: Align, scaled: bool) -> Result
         .iter()
         .copied()
         .skip(1)
+        .filter(|q| !q.name.ends_with("_stderr"))
         .filter(|q| reference.profile.get(q).is_some() && others.iter().any(|s| s.profile.get(q).is_some()))
         .collect();
     let name = reference.name.clone();

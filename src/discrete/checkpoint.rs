@@ -9,7 +9,7 @@ use super::engine::{Engine, Settings};
 use super::grains::Grains;
 use super::lanes::{Pair, Row};
 use super::law::ContactLaw;
-use super::tile::{Tile, WallList, cut};
+use super::tile::{GROUP, Tile, WallList, cut};
 use crate::numerics::sum::Sum;
 
 const MAGIC: &[u8; 8] = b"bedload\x01";
@@ -286,7 +286,12 @@ impl<C: ContactLaw> Engine<C> {
                 pairs,
                 springs,
                 touching,
-                walls: WallList { grains: walls, springs: wall_springs, ranges },
+                walls: WallList {
+                    touching: vec![u8::MAX; walls.len().div_ceil(GROUP)],
+                    grains: walls,
+                    springs: wall_springs,
+                    ranges,
+                },
                 reach,
                 ..Tile::default()
             };

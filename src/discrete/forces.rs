@@ -11,14 +11,15 @@ use super::law::{Contact, ContactLaw};
 use super::tile::{BLOCK, Found, GROUP, Tile};
 use super::walls;
 
-/// Pairs of a block that touch: the pair, its slot, and the separation [m]. One a thread.
+/// Pairs of a block that touch: the pair, its slot, and the separation [m]; or grains at a wall, and their distance [m]
+/// in place of the squared separation. One a thread.
 #[derive(Clone, Debug)]
 pub struct Touching {
-    pairs: [Pair; BLOCK + GROUP],
-    slots: [u64; BLOCK + GROUP],
+    pub(super) pairs: [Pair; BLOCK + GROUP],
+    pub(super) slots: [u64; BLOCK + GROUP],
     apart: [[f64; BLOCK + GROUP]; 3],
-    squared: [f64; BLOCK + GROUP],
-    reach: [f64; BLOCK + GROUP],
+    pub(super) squared: [f64; BLOCK + GROUP],
+    pub(super) reach: [f64; BLOCK + GROUP],
 }
 
 impl Default for Touching {
@@ -29,6 +30,23 @@ impl Default for Touching {
             apart: [[0.0; BLOCK + GROUP]; 3],
             squared: [0.0; BLOCK + GROUP],
             reach: [0.0; BLOCK + GROUP],
+        }
+    }
+}
+
+impl Touching {
+    /// Fills the last vector with copies of the last of `count` entries, which are computed and not used.
+    #[inline(always)]
+    pub(super) fn fill(&mut self, count: usize, width: usize) {
+        let Some(last) = count.checked_sub(1) else { return };
+        for at in count..count.next_multiple_of(width) {
+            self.pairs[at] = self.pairs[last];
+            self.slots[at] = self.slots[last];
+            for k in 0..3 {
+                self.apart[k][at] = self.apart[k][last];
+            }
+            self.squared[at] = self.squared[last];
+            self.reach[at] = self.reach[last];
         }
     }
 }
@@ -104,7 +122,7 @@ fn tile_forces<C: ContactLaw, L: Lanes>(
         tile.found.contacts += count;
         from = to;
     }
-    walls::compute::<C, L>(proof, scene, tile, loads);
+    walls::compute::<C, L>(proof, scene, tile, loads, touching);
 }
 
 /// Finds the pairs of the slots `from..to` that touch; springs of new contacts begin at zero.
@@ -175,18 +193,7 @@ fn apply<C: ContactLaw, L: Lanes>(
     touching: &mut Touching,
     dt: f64,
 ) {
-    // The last vector is filled with copies of the last pair, which are computed and not used.
-    if let Some(last) = count.checked_sub(1) {
-        for at in count..count.next_multiple_of(L::WIDTH) {
-            touching.pairs[at] = touching.pairs[last];
-            touching.slots[at] = touching.slots[last];
-            for k in 0..3 {
-                touching.apart[k][at] = touching.apart[k][last];
-            }
-            touching.squared[at] = touching.squared[last];
-            touching.reach[at] = touching.reach[last];
-        }
-    }
+    touching.fill(count, L::WIDTH);
     let mut deepest = L::splat(proof, 0.0);
     let one = L::splat(proof, 1.0);
     let window = tile.window(grains.len());

@@ -186,6 +186,7 @@ impl Tile {
             let padded = self.walls.grains.len().next_multiple_of(GROUP);
             self.walls.grains.resize(padded, grains.len() as u64 + 2);
             self.walls.springs.resize(padded, Row::default());
+            self.walls.touching.resize(padded / GROUP, u8::MAX);
         }
     }
 
@@ -228,8 +229,9 @@ impl Tile {
                 && r.end.next_multiple_of(GROUP) <= walls.grains.len()
                 && walls.grains[r.clone()].iter().all(|&i| self.grains.contains(&(i as usize)))
         });
-        let padded =
-            walls.grains.iter().all(|&i| i as usize <= grains + 2) && walls.springs.len() == walls.grains.len();
+        let padded = walls.grains.iter().all(|&i| i as usize <= grains + 2)
+            && walls.springs.len() == walls.grains.len()
+            && walls.touching.len() * GROUP == walls.grains.len();
         let sound = starts
             && lists
             && ends

@@ -50,8 +50,10 @@ pub struct Moved {
 pub struct WallList {
     /// grain of each, padded per wall
     pub grains: Vec<u64>,
-    /// elongation of the tangential springs [m]
+    /// elongation of the tangential springs [m], 0 where none touches
     pub springs: Vec<Row>,
+    /// which entries of each group may have touched in the last step
+    pub touching: Vec<u8>,
     /// entries of each wall without the padding
     pub ranges: Vec<Range<usize>>,
 }

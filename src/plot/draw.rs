@@ -11,6 +11,7 @@ use super::{Curve, Dash, Figure, Panel, PlotError};
 
 const TICK: f64 = 5.0;
 const MINOR_TICK: f64 = 2.8;
+const BARS_APART: f64 = 9.0;
 const FRAME: Stroke = Stroke { role: Role::Ink, width: HAIR, dash: Dash::Solid };
 const LEVEL: Stroke = Stroke { role: Role::Faint, width: HAIR, dash: Dash::Dashed };
 
@@ -125,6 +126,36 @@ fn draw_curve<DB: DrawingBackend>(
             for &at in &line {
                 canvas.marker(at, marker, role)?;
             }
+        }
+    }
+    error_bars(canvas, curve, panel, figure, (layout, frame))
+}
+
+/// Bars of one standard error to either side, so far apart that they can be told from each other.
+fn error_bars<DB: DrawingBackend>(
+    canvas: &Canvas<'_, DB>,
+    curve: &Curve,
+    panel: &Panel,
+    figure: &Figure,
+    (layout, frame): (&Layout, &Frame),
+) -> Result<(), PlotError> {
+    let (role, dash) = (Role::Series(curve.colour), Dash::Solid);
+    let (left, right) = frame.x.span;
+    let mut last = f64::INFINITY;
+    for (point, error) in curve.points.iter().zip(&curve.errors) {
+        let (Some((x, y)), Some(error)) = (*point, *error) else { continue };
+        if !(panel.x.holds(x - error) && panel.x.holds(x + error) && figure.y.holds(y)) {
+            continue;
+        }
+        let ends = [x - error, x + error].map(|x| frame.x.at(x).clamp(left, right));
+        let y = layout.y.at(y);
+        if (curve.marker.is_none() && (y - last).abs() < BARS_APART) || ends[1] - ends[0] < HAIR {
+            continue;
+        }
+        last = y;
+        canvas.line(&[(ends[0], y), (ends[1], y)], Stroke { role, width: HAIR, dash })?;
+        for x in ends {
+            canvas.line(&[(x, y - 2.0), (x, y + 2.0)], Stroke { role, width: HAIR, dash })?;
         }
     }
     Ok(())

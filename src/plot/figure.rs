@@ -49,7 +49,7 @@ pub enum Scale {
 }
 
 /// A series of points, joined, marked, or both.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Curve {
     /// its entry in the legend; empty for none
     pub name: String,
@@ -61,6 +61,8 @@ pub struct Curve {
     pub line: Option<Dash>,
     /// drawn at each point
     pub marker: Option<Marker>,
+    /// standard error of x per point, drawn as bars at some of them; empty if there is none
+    pub errors: Vec<Option<f64>>,
 }
 
 /// Pattern of a line: with the colour it tells curves apart, without colour it still does.
@@ -152,7 +154,7 @@ mod tests {
             points: vec![Some((1.0, 1.0)), Some((2.0, 2.0)), None, None, Some((-3.0, 3.0)), Some((4.0, 4.0))],
             colour: 0,
             line: Some(Dash::Solid),
-            marker: None,
+            ..Curve::default()
         };
         let mut figure = Figure {
             stem: "f".into(),

@@ -110,7 +110,12 @@ fn points(figure: &Figure, panel: &Panel) -> impl Iterator<Item = (f64, f64)> {
 
 /// The horizontal axis with as many labels as fit side by side.
 fn horizontal(figure: &Figure, panel: &Panel, span: (f64, f64)) -> Result<Ruler, PlotError> {
-    let values: Vec<f64> = points(figure, panel).map(|p| p.0).collect();
+    let mut values: Vec<f64> = points(figure, panel).map(|p| p.0).collect();
+    for curve in &panel.curves {
+        let bars = curve.points.iter().zip(&curve.errors);
+        let ends = bars.filter_map(|(point, error)| point.zip(*error)).flat_map(|((x, _), e)| [x - e, x + e]);
+        values.extend(ends.filter(|&x| panel.x.holds(x)));
+    }
     let mut labels = 7;
     loop {
         let ruler = Ruler::new(&panel.x, values.iter().copied(), span, labels);
@@ -227,7 +232,7 @@ mod tests {
 
     fn figure(points: Vec<Option<(f64, f64)>>) -> Figure {
         let name = "a long legend".to_owned();
-        let curve = Curve { name, points, colour: 1, line: Some(Dash::Solid), marker: None };
+        let curve = Curve { name, points, colour: 1, line: Some(Dash::Solid), ..Curve::default() };
         Figure {
             stem: "f".into(),
             caption: String::new(),

@@ -19,6 +19,7 @@ pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
         scene.stresses(),
         scene.single("solid fraction φ", &quantity::PHI, GRAINS),
         scene.single("flux φuₚ", &quantity::FLUX, GRAINS),
+        scene.single("granular temperature", &quantity::GRANULAR_TEMPERATURE, GRAINS),
     ]
     .into_iter()
     .flatten()
@@ -220,7 +221,10 @@ impl<'a> Scene<'a> {
                 if let (Some((row, below, above)), Some(bed)) = (self.jump(&line), self.result(&quantity::BED_LEVEL)) {
                     points.splice(row..row, [at((bed, Some(below))), at((bed, Some(above)))]);
                 }
-                Curve { name: line.name.into(), points, colour: line.pen.0, line: Some(dash), marker: None }
+                let known = line.quantity.and_then(|q| self.profile.errors(q)).filter(|e| e.len() == points.len());
+                let errors = known.map_or_else(Vec::new, |e| e.iter().map(|e| e.map(|e| e * factor)).collect());
+                let (name, colour) = (line.name.into(), line.pen.0);
+                Curve { name, points, colour, line: Some(dash), errors, ..Curve::default() }
             })
             .collect();
         (!curves.is_empty()).then(|| Panel { x: Axis::linear(title, symbol), curves })

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use crate::result::quantity::{self, RESULTS};
 use crate::result::{Reported, Status, Summary};
-use crate::units::{readable, significant};
+use crate::units::{readable, readable_mean, significant};
 
 use super::svg::{escape, svg};
 use super::{Figure, theme};
@@ -164,9 +164,7 @@ fn value(reported: &Reported, unit: &'static str) -> String {
     let Some(value) = reported.value else {
         return format!("<span class=\"none\">– {}</span>", escape(reported.reason.as_deref().unwrap_or("undefined")));
     };
-    let error =
-        reported.stderr.map_or_else(String::new, |e| format!(" <small>± {}</small>", typeset(&readable(e, unit))));
-    typeset(&readable(value, unit)) + &error
+    typeset(&reported.stderr.map_or_else(|| readable(value, unit), |error| readable_mean(value, error, unit)))
 }
 
 /// `u_max_m_s = 0.31234567`.

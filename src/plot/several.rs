@@ -136,15 +136,13 @@ impl Scene<'_> {
         let mut curves = Vec::new();
         for (i, trace) in self.traces.iter().enumerate() {
             let place = |(z, x): (f64, Option<f64>)| x.map(|x| (x * factor, z * z_factor));
-            let points = points(trace, quantity).into_iter().map(place).collect();
+            let points: Vec<_> = points(trace, quantity).into_iter().map(place).collect();
             let marked = trace.is_marked();
             let (line, marker) = if marked { (None, Some(self.marker(i))) } else { (Some(dash(i)), None) };
-            if let Some(bars) = bars(trace, quantity) {
-                let points = bars.into_iter().map(|bar| bar.and_then(|(z, x)| place((z, Some(x))))).collect();
-                curves.push(Curve { name: String::new(), points, colour: i, line: Some(Dash::Solid), marker: None });
-            }
+            let known = trace.errors.and_then(|errors| errors.get(quantity)).unwrap_or_default();
+            let errors = known.iter().map(|sigma| sigma.map(|sigma| sigma * factor)).collect();
             let name = if named { trace.name.to_owned() } else { String::new() };
-            curves.push(Curve { name, points, colour: i, line, marker });
+            curves.push(Curve { name, points, colour: i, line, marker, errors });
         }
         Panel { x: Axis::linear(quantity.title, unit), curves }
     }
@@ -160,17 +158,6 @@ fn points(trace: &Trace<'_>, quantity: &'static Quantity) -> Vec<(f64, Option<f6
         points.splice(row..row, [(bed, Some(below)), (bed, Some(above))]);
     }
     points
-}
-
-/// Error bars of one sigma to either side, as ends of strokes with a gap after each.
-fn bars(trace: &Trace<'_>, quantity: &'static Quantity) -> Option<Vec<Option<(f64, f64)>>> {
-    let (values, sigmas) = (trace.profile.get(quantity)?, trace.errors?.get(quantity)?);
-    let rows = trace.profile.axis().into_iter().zip(values.iter().zip(sigmas));
-    let bar = |(z, (value, sigma)): (f64, (&Option<f64>, &Option<f64>))| {
-        let (value, sigma) = ((*value)?, (*sigma)?);
-        Some([Some((z, value - sigma)), Some((z, value + sigma)), None])
-    };
-    Some(rows.filter_map(bar).flatten().collect())
 }
 
 fn dash(i: usize) -> Dash {
@@ -213,12 +200,13 @@ mod tests {
             assert_eq!(named, if i == 0 { vec!["mixed", "two", "data"] } else { vec![] });
             assert!(panel.curves.iter().all(|c| c.colour != 2 || c.marker.is_some() || c.name.is_empty()));
         }
-        let bars = &profiles.panels[0].curves[2];
-        assert_eq!((bars.colour, bars.points.len(), bars.points[2]), (2, 30, None));
+        let data = &profiles.panels[0].curves[2];
+        assert_eq!((data.colour, data.errors.len(), data.errors[3]), (2, 11, None));
+        assert!(data.errors[2].is_some_and(|e| e > 0.0));
         let looks: Vec<_> = profiles.panels[0].curves.iter().map(|c| (c.colour, c.line, c.marker.is_some())).collect();
         assert_eq!(looks[0], (0, Some(Dash::Solid), false));
         assert_eq!(looks[1], (1, Some(Dash::Dashed), false));
-        assert_eq!(looks[3], (2, None, true));
+        assert_eq!(looks[2], (2, None, true));
         for figure in &figures {
             assert!(!svg(figure).unwrap().contains("NaN"));
         }

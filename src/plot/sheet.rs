@@ -54,7 +54,7 @@ impl Scene<'_> {
             Some((x, y))
         };
         let points = (0..self.z.len()).map(point).filter(Option::is_some).collect();
-        Curve { name: name.into(), points, colour, line: Some(dash), marker: None }
+        Curve { name: name.into(), points, colour, line: Some(dash), ..Curve::default() }
     }
 
     /// Stresses over that of the interface, solid fraction, flux and its integral over their largest values.
@@ -105,9 +105,9 @@ impl Scene<'_> {
             points: points.into_iter().map(Some).collect(),
             colour: 0,
             line: Some(Dash::Dashed),
-            marker: None,
+            ..Curve::default()
         };
-        let cells = Curve { name: "cells".into(), points, colour: 2, line: None, marker: Some(Marker::Circle) };
+        let cells = Curve { name: "cells".into(), points, colour: 2, marker: Some(Marker::Circle), ..Curve::default() };
         if cells.points.is_empty() {
             return None;
         }

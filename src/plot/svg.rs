@@ -175,6 +175,7 @@ mod tests {
                     colour: 9,
                     line: Some(Dash::DashDotted),
                     marker: Some(Marker::Square),
+                    errors: vec![Some(0.5), None, Some(f64::NAN)],
                 };
                 let axis = Axis { scale, ..Axis::linear("x", "m") };
                 let panel = Panel { x: axis.clone(), curves: vec![curve] };

@@ -203,7 +203,14 @@ pub(super) fn convergence() -> Figure {
     let cells = [25.0, 50.0, 100.0, 200.0, 400.0, 800.0_f64];
     let errors =
         |at: f64, order: i32| -> Vec<_> { cells.iter().map(|n| Some((*n, at * (25.0 / n).powi(order)))).collect() };
-    let curve = |name: &str, points, colour, line, marker| Curve { name: name.into(), points, colour, line, marker };
+    let curve = |name: &str, points, colour, line, marker| Curve {
+        name: name.into(),
+        points,
+        colour,
+        line,
+        marker,
+        ..Curve::default()
+    };
     Figure {
         stem: "convergence".into(),
         caption: "Error against the number of cells".into(),

@@ -105,6 +105,13 @@ impl Table {
         self.columns.iter().find(|c| c.quantity.name == quantity.name).map(|c| c.values.as_slice())
     }
 
+    /// The standard errors of a column, one per row, or `None` if the table does not have them.
+    #[must_use]
+    pub fn errors(&self, quantity: &Quantity) -> Option<&[Option<f64>]> {
+        let of = |c: &&Column| c.quantity.name.strip_suffix("_stderr") == Some(quantity.name);
+        self.columns.iter().find(of).map(|c| c.values.as_slice())
+    }
+
     /// The largest and smallest defined values of a column.
     #[must_use]
     pub fn range(&self, quantity: &Quantity) -> Option<(f64, f64)> {
@@ -201,6 +208,21 @@ macro_rules! over_an_axis {
             /// As [`Table::push`].
             pub fn push(&mut self, quantity: &'static Quantity, values: Vec<Option<f64>>) -> Result<(), TableError> {
                 self.0.push(quantity, values)
+            }
+
+            /// The standard errors as a table of the quantities themselves, without those that are 0; `None` if there are none.
+            #[must_use]
+            pub fn standard_errors(&self) -> Option<Self> {
+                let mut errors = Table::default();
+                let axis = self.get(&$axis)?.to_vec();
+                errors.columns.push(Column { quantity: &$axis, values: axis });
+                for quantity in self.quantities() {
+                    if let Some(known) = self.errors(quantity) {
+                        let values = known.iter().map(|e| e.filter(|&e| e > 0.0)).collect();
+                        errors.columns.push(Column { quantity, values });
+                    }
+                }
+                (errors.columns.len() > 1).then_some(Self(errors))
             }
 
             /// Reads what [`Table::write_csv`] wrote.

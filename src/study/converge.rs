@@ -111,12 +111,13 @@ pub(super) fn curve(name: &str, i: usize, points: impl Iterator<Item = (f64, Opt
         colour: i,
         line: Some([Dash::Solid, Dash::Dashed, Dash::DashDotted, Dash::Dotted][i % 4]),
         marker: Some([Marker::Circle, Marker::Square, Marker::Triangle][i % 3]),
+        ..Curve::default()
     }
 }
 
 /// A line without markers.
 pub(super) fn line(name: String, colour: usize, dash: Dash, points: Vec<(f64, f64)>) -> Curve {
-    Curve { name, points: points.into_iter().map(Some).collect(), colour, line: Some(dash), marker: None }
+    Curve { name, points: points.into_iter().map(Some).collect(), colour, line: Some(dash), ..Curve::default() }
 }
 
 /// An error for readers: `4.71 %` where a per cent says something, `9.2e-7` below.

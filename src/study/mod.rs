@@ -8,6 +8,7 @@
 //! same for all: [`conduct`] runs the points, skips those that are done, turns a failure into a row, and writes the folder.
 
 pub mod converge;
+mod coupled;
 mod errors;
 mod mesh;
 pub mod orders;

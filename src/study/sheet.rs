@@ -31,7 +31,7 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
         points: layers.iter().map(|row| Some((theta(row), value(row)?))).collect(),
         colour,
         line: Some(dash),
-        marker: None,
+        ..Curve::default()
     };
     let marked = |name: &str, i: usize, value: &dyn Fn(&Row) -> Option<f64>| {
         let points = layers.iter().map(|row| (theta(row), value(row)));
@@ -53,7 +53,7 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
             Some((x, law.rate(x)))
         });
         let dash = [Dash::Solid, Dash::Dashed, Dash::DashDotted][i % 3];
-        Curve { name: law.name.into(), points: points.collect(), colour: 0, line: Some(dash), marker: None }
+        Curve { name: law.name.into(), points: points.collect(), colour: 0, line: Some(dash), ..Curve::default() }
     };
     let rate = |row: &Row| get(row, &q::TRANSPORT_RATE_DIMENSIONLESS);
     let below = |row: &Row| Some(rate(row)? * get(row, &q::TRANSPORT_SHARE_BED)?);

@@ -90,6 +90,7 @@ fn judge(varied: &[Varied], axis: Option<usize>, rows: &[Row]) -> Judgement {
     }
     judgement.figures.extend(figure(varied, axis, rows, shown));
     judgement.figures.extend(super::sheet::figures(rows));
+    super::coupled::judge(&keys, rows, &mut judgement);
     judgement
 }
 

@@ -46,7 +46,7 @@ fn interrupt(child: &Child) {
 }
 
 /// Everything that a run says, without what may differ between two identical runs: times, and who ran it when.
-fn said(scratch: &Scratch, folder: &str) -> BTreeMap<PathBuf, String> {
+pub fn said(scratch: &Scratch, folder: &str) -> BTreeMap<PathBuf, String> {
     let mut files = BTreeMap::new();
     for (path, bytes) in scratch.snapshot(folder) {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();

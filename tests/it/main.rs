@@ -8,6 +8,7 @@ mod cases_good;
 mod cli;
 mod compare;
 mod converge;
+mod coupled;
 mod folder;
 mod grains;
 mod interruption;

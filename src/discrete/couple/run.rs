@@ -41,7 +41,7 @@ pub(super) struct Run<'a> {
     pub periods: u64,
     pub made: u64,
     /// steps until the eddies turn, and draws of them so far
-    turn: u64,
+    pub turn: u64,
     draws: u64,
     /// transport rate summed over the periods since the last sample
     rates: f64,
@@ -251,7 +251,7 @@ impl<'a> Run<'a> {
     }
 
     /// Level of the bed [m], depth of the water over it [m], and its mean velocity [m/s].
-    fn water(&self) -> [f64; 3] {
+    pub(super) fn water(&self) -> [f64; 3] {
         let (phi, height) = (self.exchange.phi(), self.exchange.cell_height());
         let level = level(phi, height, self.flow.bed.d);
         let bed = ((level / height).round() as usize).min(phi.len() - 1);
@@ -262,7 +262,7 @@ impl<'a> Run<'a> {
     }
 
     /// Draws the eddies that each grain meets anew.
-    fn stir(&mut self) {
+    pub(super) fn stir(&mut self) {
         let Fluctuation::RandomWalk(walk) = self.flow.fluctuation else {
             self.turn = u64::MAX;
             return;
@@ -335,7 +335,7 @@ impl<'a> Run<'a> {
 
 /// Weight of a grain in a fluid that flows steadily under a free surface, over its mass: all of it along the flow, the
 /// submerged part normal to it.
-fn gravity(flow: &Coupled) -> Point {
+pub(super) fn gravity(flow: &Coupled) -> Point {
     let bed = &flow.bed;
     [bed.g * bed.beta.sin(), 0.0, -(1.0 - flow.rho_f / bed.rho_p) * bed.g * bed.beta.cos()]
 }

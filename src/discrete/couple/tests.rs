@@ -2,7 +2,7 @@
 
 use super::exchange::Exchange;
 use super::record::Record;
-use super::run::{HalfWay, Run, level, relief, resume};
+use super::run::{HalfWay, Run, gravity, level, relief, resume};
 use super::{Felt, run};
 use crate::case::grain_tables::Bottom;
 use crate::closures::contact::{LinearSpring, Tension};
@@ -103,6 +103,81 @@ fn the_slope_of_the_drag_is_its_derivative() {
 }
 
 #[test]
+fn the_whole_weight_pulls_along_the_flow_and_the_submerged_one_normal_to_it() {
+    let [x, y, z] = gravity(&flow());
+    let cosine = 1.0 / 1.01_f64.sqrt();
+    assert_relative_eq!(x, 9.81 * 0.1 * cosine, max_relative = 1e-14);
+    assert_relative_eq!(z, -9.81 * 0.6 * cosine, max_relative = 1e-14);
+    assert_eq!(y, 0.0);
+}
+
+#[test]
+fn there_is_no_drag_above_the_surface() {
+    let law = DallavalleGrain { constant: 0.4, exponent: 3.1 };
+    let mut felt = Felt::new(law, law.viscous(1e-6, D), 4, D, 1);
+    felt.velocity[..4].fill(1.0);
+    felt.size[..4].fill(law.size(0.0, 1000.0, D));
+    let at = |z: f64| felt.drag(0, z, [0.0; 3]).force[0];
+    assert!(at(3.99 * D) > 0.0 && at(-0.2 * D) > 0.0);
+    assert_eq!((at(4.01 * D), at(1e3 * D)), (0.0, 0.0));
+}
+
+#[test]
+fn what_the_grains_are_averaged_to_is_exact() {
+    let case = flow();
+    let moving = |n: usize| {
+        let at = [2.0 * (n % 3) as f64 * D, 2.0 * (n / 3) as f64 * D, 0.77 * D];
+        Grain { velocity: [0.1 * n as f64, 0.0, 0.0], ..Grain::at_rest(at, 0.5 * D, 2500.0) }
+    };
+    let grains: Vec<Grain> = (0..9).map(moving).collect();
+    let domain = Domain { periods: [Some(6.0 * D), Some(6.0 * D)], walls: Vec::new() };
+    let engine =
+        Engine::new(&grains, domain, law(&case.bed.contact).unwrap(), Settings::new(1e-4, [0.0; 3], D), 1).unwrap();
+    let mut exchange = Exchange::new(&case, 4.0 * D, 9).unwrap();
+    exchange.look(&engine, 0.0);
+    let (h, area, pi) = (exchange.cell_height(), 36.0 * D * D, std::f64::consts::PI);
+    let (phi, volume) = (exchange.phi(), pi / 6.0 * D.powi(3));
+    assert_relative_eq!(phi.iter().sum::<f64>() * h * area, 9.0 * volume, max_relative = 1e-12);
+    assert_relative_eq!(exchange.rate(), volume * 3.6 / area, max_relative = 1e-12);
+    let mut shallow = Exchange::new(&case, D, 9).unwrap();
+    shallow.look(&engine, 0.0);
+    assert!(shallow.phi().iter().sum::<f64>() * shallow.cell_height() * area < 8.9 * volume);
+    assert_eq!(shallow.rate(), exchange.rate(), "a grain counts as a whole, whatever of it is under water");
+    // Within a cell the section is a parabola: Simpson's rule is exact.
+    let section = |z: f64| 9.0 * pi * (0.25 * D * D - (z - 0.77 * D).powi(2));
+    for i in (0..phi.len()).filter(|&i| i as f64 * h > 0.27 * D && (i + 1) as f64 * h < 1.27 * D) {
+        let [low, middle, high] = [0.0, 0.5, 1.0].map(|x| section((i as f64 + x) * h));
+        assert_relative_eq!(phi[i], (low + 4.0 * middle + high) / 6.0 / area, max_relative = 1e-10);
+    }
+}
+
+#[test]
+fn eddies_turn_over_with_the_water_and_differ_from_grain_to_grain() {
+    let case = flow();
+    let fixed = relief(&case);
+    let what = Deposit { bed: &case.bed, fixed: Some(&fixed), name: &[0; 32] };
+    let Ok(ControlFlow::Continue(engine)) = deposit(what, None, &mut Quiet) else {
+        panic!("the bed does not rest");
+    };
+    let mut run = Run::begin(&case, engine).unwrap();
+    let [_, depth, speed] = run.water();
+    assert!(depth > 0.5 * D && depth < 6.0 * D && speed > 0.05, "{depth} {speed}");
+    let mut eddies = || {
+        run.stir();
+        assert_eq!(run.turn, (depth / speed / run.engine.settings().dt).round() as u64);
+        let carried: Vec<f64> = run.exchange.felt.carried().collect();
+        carried.chunks(4).map(|c| [c[0], c[1], c[2]]).collect::<Vec<_>>()
+    };
+    let (first, second) = (eddies(), eddies());
+    let moved = |e: &[f64; 3]| e[0] != 0.0;
+    assert!(first.iter().filter(|e| moved(e)).count() > 30);
+    for (i, (a, b)) in first.iter().zip(&second).enumerate().filter(|(_, (a, b))| moved(a) && moved(b)) {
+        assert!(a != b && first[..i].iter().all(|c| c != a), "grain {i} has the eddy of another, or the former one");
+        assert_eq!((a[1], b[1]), (0.0, 0.0));
+    }
+}
+
+#[test]
 fn a_grain_settles_at_the_terminal_velocity() {
     // w_s where the drag is the submerged weight, in a fluid at rest; the first-order start has died out.
     let case = Coupled { bed: GrainBed { beta: 0.0, ..flow().bed }, surface: Surface::Height(90.0 * D), ..flow() };
@@ -171,7 +246,18 @@ fn what_the_fluid_loses_the_grains_get() {
         for _ in 0..100 {
             engine.step(&exchange.felt).unwrap();
         }
+        let inertia = |e: &Exchange| {
+            let cells = e.phi().iter().zip(e.column.velocity());
+            cells.map(|(phi, u)| 1000.0 * (1.0 - phi) * e.cell_height() * u).sum::<f64>()
+        };
+        let (before, net) = (inertia(&exchange), exchange.totals[0].total());
         exchange.advance(1e-2, 1).unwrap();
+        // What drives the fluid, less what the bottom holds back and what it lost to the grains.
+        let slope = 0.1 / 1.01_f64.sqrt();
+        let water: f64 = exchange.phi().iter().map(|phi| (1.0 - phi) * exchange.cell_height()).sum();
+        let bottom = exchange.column.tau_viscous()[0] + exchange.column.tau_reynolds()[0];
+        let impulse = 1e-2 * (1000.0 * 9.81 * slope * water - bottom) - (exchange.totals[0].total() - net);
+        assert!((inertia(&exchange) - before - impulse).abs() < 1e-9 * before, "{impulse}");
     }
     exchange.look(&engine, dt);
     assert!(exchange.defect().abs() < 1e-12, "{}", exchange.defect());
@@ -250,6 +336,10 @@ fn a_flow_over_a_small_bed_carries_grains_and_closes_its_balances() {
     let phi: f64 = profile.get(&q::PHI).unwrap().iter().flatten().sum::<f64>() * (z[1] - z[0]);
     let whole = 108.0 * std::f64::consts::PI / 6.0 * D / 36.0;
     assert!(phi > 0.98 * whole && phi < 1.2 * whole, "{phi} {whole}");
+    // The flux in the moments of the samples, the rate in all periods.
+    let flux: f64 = profile.get(&q::FLUX).unwrap().iter().flatten().sum::<f64>() * (z[1] - z[0]);
+    let ratio = result(&q::TRANSPORT_RATE) / flux;
+    assert!((0.75..1.33).contains(&ratio), "{ratio}");
 }
 
 #[test]
@@ -271,6 +361,10 @@ fn the_level_of_a_bed_is_where_half_of_it_is_left() {
     let phi: Vec<f64> = (0..300).map(|i| 0.6 / (1.0 + (0.1 * (f64::from(i) - 150.0)).exp())).collect();
     assert!((level(&phi, 1.0, 30.0) - 150.0).abs() <= 1.0);
     assert_eq!(level(&[0.0; 9], 1.0, 3.0), 0.0);
+    // A bed of one and a half diameters, and two cells of a grain that flies over it.
+    let thin = |i: usize| if i < 15 || (40..42).contains(&i) { 0.6 } else { 0.0 };
+    let phi: Vec<f64> = (0..100).map(thin).collect();
+    assert!((level(&phi, 1.0, 10.0) - 15.0).abs() <= 1.0);
 }
 
 #[test]

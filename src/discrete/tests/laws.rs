@@ -1,6 +1,6 @@
 //! Details of the law, the list and the averages that no trial would notice.
 
-use super::{Domain, G, R, RHO, engine, gas, go, grain, law};
+use super::{Domain, G, R, RHO, engine, floor, gas, go, grain, law};
 use crate::discrete::average::Averages;
 use crate::discrete::body::Nothing;
 use crate::discrete::lanes::scalar::One;
@@ -101,4 +101,33 @@ fn the_stress_of_a_contact_is_its_force_along_its_branch() {
     averages.sample(&engine, 0);
     let (pressure, _) = averages.profile().pressure[0].unwrap();
     approx::assert_relative_eq!(pressure, push * branch / (0.04 * 0.01), max_relative = 1e-9);
+}
+
+#[test]
+fn a_second_touch_knows_nothing_of_the_first() {
+    let spinning = |z: f64| Grain { spin: [0.0, 40.0, 0.0], ..grain([0.0, 0.0, z], [0.05, 0.0, 0.0]) };
+    let below = Grain { fixed: true, ..grain([0.0; 3], [0.0; 3]) };
+    for (domain, grains) in
+        [(floor(), vec![spinning(R + 1e-5)]), (Domain::default(), vec![below, spinning(2.0 * R + 1e-5)])]
+    {
+        let start = |grains: &[Grain]| engine(grains, domain.clone(), law(1.0, Tension::Cut), 1e-5, [0.0, 0.0, -G]);
+        let mut whole = start(&grains);
+        let touching = |e: &Engine<_>| e.found().contacts + e.found().wall_contacts > 0;
+        for wanted in [true, false] {
+            while touching(&whole) != wanted {
+                go(&mut whole, 1);
+            }
+        }
+        let mut fresh = start(&whole.grains().listed());
+        let mut touched = false;
+        for _ in 0..2000 {
+            go(&mut whole, 1);
+            go(&mut fresh, 1);
+            touched |= touching(&whole);
+        }
+        assert!(touched);
+        for (a, b) in whole.grains().listed().iter().zip(fresh.grains().listed()) {
+            assert_eq!((a.position, a.velocity, a.spin), (b.position, b.velocity, b.spin));
+        }
+    }
 }

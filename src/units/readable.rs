@@ -1,0 +1,80 @@
+//! Numbers as a reader expects them: few digits, a decimal multiple of the unit, an error with two digits.
+
+/// `value` with `digits` significant digits, in decimal or scientific notation, whichever a reader expects.
+#[must_use]
+pub fn significant(value: f64, digits: usize) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return format!("{value}");
+    }
+    let text = format!("{value:.*e}", digits.max(1) - 1);
+    let exponent: i32 = text.split_once('e').and_then(|(_, e)| e.parse().ok()).unwrap_or(0);
+    if (-4..6).contains(&exponent) {
+        let decimals = usize::try_from(digits as i32 - 1 - exponent).unwrap_or(0);
+        format!("{value:.decimals$}")
+    } else {
+        text
+    }
+}
+
+/// A decimal multiple of `unit` in which a number of size `magnitude` is easy to read: factor from SI and its symbol.
+#[must_use]
+pub fn readable_unit(magnitude: f64, unit: &'static str) -> (f64, &'static str) {
+    let size = magnitude.abs();
+    match unit {
+        "m" if size > 0.0 && size < 1e-4 => (1e6, "\u{b5}m"),
+        "m" if size > 0.0 && size < 0.1 => (1e3, "mm"),
+        "m/s" if size > 0.0 && size < 1e-4 => (1e6, "\u{b5}m/s"),
+        "m/s" if size > 0.0 && size < 0.1 => (1e3, "mm/s"),
+        "m²/s" if size > 0.0 && size < 1e-3 => (1e6, "mm²/s"),
+        "Pa" if size > 0.0 && size < 0.01 => (1e3, "mPa"),
+        "Pa" if size >= 1e4 => (1e-3, "kPa"),
+        _ => (1.0, unit),
+    }
+}
+
+/// `value` in a readable multiple of `unit` with four significant digits, such as `12.10 mm`.
+#[must_use]
+pub fn readable(value: f64, unit: &'static str) -> String {
+    let (factor, symbol) = readable_unit(value, unit);
+    let number = significant(value * factor, 4);
+    if symbol.is_empty() || symbol == "1" { number } else { format!("{number} {symbol}") }
+}
+
+/// `value ± error` in a readable multiple of `unit`, the error with two digits, such as `12.10 ± 0.12 mm`.
+#[must_use]
+pub fn readable_mean(value: f64, error: f64, unit: &'static str) -> String {
+    let (factor, symbol) = readable_unit(value, unit);
+    let (value, error) = (value * factor, error * factor);
+    let exponent = error.abs().log10().floor();
+    // Two digits of the error, unless that would be none of the value, or more than anyone reads.
+    let decimals = (1.0 - exponent).clamp(0.0, 12.0);
+    let number = if (1e-4..1e6).contains(&value.abs()) && exponent.is_finite() && error < value.abs() {
+        format!("{value:.*} ± {error:.*}", decimals as usize, decimals as usize)
+    } else {
+        format!("{} ± {}", significant(value, 4), significant(error, 2))
+    };
+    if symbol.is_empty() || symbol == "1" { number } else { format!("{number} {symbol}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_and_its_error_share_unit_and_digits() {
+        assert_eq!(readable_mean(0.01275, 8.252e-5, "m²/s"), "0.012750 ± 0.000083 m²/s");
+        assert_eq!(readable_mean(0.01210, 1.2e-4, "m"), "12.10 ± 0.12 mm");
+        assert_eq!(readable_mean(26.38, 0.8, "1/s"), "26.38 ± 0.80 1/s");
+        assert_eq!(readable_mean(2.0, 30.0, "1"), "2.000 ± 30");
+        assert_eq!(readable_mean(0.0, 0.0, "1"), "0 ± 0");
+        assert_eq!(readable_mean(5.0, 0.0, "1"), "5.000 ± 0");
+    }
+
+    #[test]
+    fn numbers_are_displayed_as_a_reader_expects() {
+        assert_eq!(readable(0.012_103_4, "m"), "12.10 mm");
+        assert_eq!(significant(3.310_3e-5, 4), "3.310e-5");
+        assert_eq!(significant(0.056_759, 4), "0.05676");
+        assert_eq!(readable(0.43, "1"), "0.4300");
+    }
+}
