@@ -12,14 +12,14 @@ use super::grain_tables::{
     TrialModel,
 };
 use super::sheet::{SheetBed, SheetClosures, SheetFlowTable, SheetGrid, SheetModel, SheetRegularisation, SheetSolver};
-use super::two_fluid::{
-    CollidingGrains, TwoFluidBed, TwoFluidClosures, TwoFluidFlow, TwoFluidGrid, TwoFluidModel, TwoFluidRegularisation,
-    TwoFluidSolver,
-};
 use super::tables::{
     About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamKindModel, BinghamModel, Film, FilmClosures, FilmFlow,
     Fluid, Grains, Grid, LaminarFlow, LaminarModel, LogLawModel, OuriemiModel, PlaneFlow, RegularisationTable,
     WallClosures, WallFlow, YieldGrid,
+};
+use super::two_fluid::{
+    CollidingGrains, TwoFluidBed, TwoFluidClosures, TwoFluidFlow, TwoFluidGrid, TwoFluidModel, TwoFluidRegularisation,
+    TwoFluidSolver,
 };
 
 macro_rules! scenes {

@@ -40,6 +40,8 @@ pub static CASES: &[(&str, &str)] = shipped![
     "kinetic_1d_mu08",
     "kinetic_1d_r1375",
     "kinetic_1d_r40",
+    "kinetic_1d_settling",
+    "kinetic_1d_start",
     "kinetic_1d_theta02",
     "kinetic_1d_theta04",
     "kinetic_1d_theta06",
@@ -63,6 +65,7 @@ pub static CASES: &[(&str, &str)] = shipped![
     "trial_2d_rolling",
     "trial_3d_cluster",
     "trial_3d_ledger",
+    "two_fluid_1d_avalanche",
 ];
 
 /// Content of the shipped case of that name.
@@ -73,7 +76,9 @@ pub fn find(name: &str) -> Option<&'static str> {
 
 /// Names of the shipped cases that take less than a second or so: the others follow many grains for long.
 pub fn quick() -> impl Iterator<Item = &'static str> {
-    names().filter(|name| !["grains_", "coupled_"].iter().any(|long| name.starts_with(long)))
+    names().filter(|name| {
+        !["grains_", "coupled_", "kinetic_1d_settling", "kinetic_1d_start"].iter().any(|long| name.starts_with(long))
+    })
 }
 
 /// Names of the shipped cases.

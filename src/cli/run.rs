@@ -213,6 +213,7 @@ fn trust(summary: &Summary) -> String {
 const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::SHIELDS, &quantity::U_STAR],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
+    &[&quantity::LAYER_THICKNESS, &quantity::TEMPERATURE_MAX, &quantity::GROWTH_RATE],
     &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],
     &[&quantity::BINGHAM, &quantity::HALF_PLUG, &quantity::PLUG_VELOCITY],
     &[&quantity::PHI_BULK, &quantity::BED_LEVEL, &quantity::COORDINATION],

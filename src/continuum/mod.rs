@@ -4,6 +4,6 @@ mod bed_results;
 pub mod exact;
 pub mod laminar;
 pub mod sheet_flow;
-pub mod two_fluid;
 #[cfg(test)]
 mod tests;
+pub mod two_fluid;

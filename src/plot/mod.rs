@@ -8,6 +8,7 @@ mod draw;
 mod figure;
 mod grains;
 mod interface;
+mod kinetic;
 mod layout;
 mod png;
 mod profile;

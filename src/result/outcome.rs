@@ -139,7 +139,9 @@ pub enum SolveError {
         shields: f64,
     },
     /// A flow in time that cannot go on.
-    #[error("stuck at t = {time_s:.6} s: no step is short enough, the last one was {step_s:.3e} s with the residual {residual:.3e}")]
+    #[error(
+        "stuck at t = {time_s:.6} s: no step is short enough, the last one was {step_s:.3e} s with the residual {residual:.3e}"
+    )]
     StuckInTime {
         /// simulated time [s]
         time_s: f64,

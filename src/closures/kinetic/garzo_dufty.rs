@@ -127,8 +127,7 @@ mod tests {
     fn where_the_conductivity_turns_negative() {
         // e = 0.3, friction 0.4, from phi = 0.384 on.
         let law = Radial::Frictional;
-        let kinetic =
-            |phi: f64| conductivity(phi, law.contact(phi, 0.635 - phi, law.coefficient(0.4)), 0.3).kinetic;
+        let kinetic = |phi: f64| conductivity(phi, law.contact(phi, 0.635 - phi, law.coefficient(0.4)), 0.3).kinetic;
         assert!(kinetic(0.383) > 0.0 && kinetic(0.385) < 0.0);
     }
 

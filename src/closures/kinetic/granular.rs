@@ -265,9 +265,7 @@ mod tests {
 
     #[test]
     fn where_saltation_limits_nothing_is_known() {
-        let unlimited = |e: f64, phi: f64| {
-            proposed("").kinetic(e, 0.4).unlimited(phi, 0.635 - phi)
-        };
+        let unlimited = |e: f64, phi: f64| proposed("").kinetic(e, 0.4).unlimited(phi, 0.635 - phi);
         assert!(!unlimited(0.7, 0.6) && !unlimited(0.5, 0.6) && !unlimited(0.3, 0.3));
         assert!(unlimited(0.3, 0.4));
     }

@@ -114,9 +114,7 @@ impl Radial {
                 let frozen = phi + gap - FREEZING;
                 frozen / gap * carnahan_starling(FREEZING)
             }
-            Self::ChialvoSundaresan | Self::Frictional => {
-                carnahan_starling(phi) + phi * phi * a / (gap * gap.sqrt())
-            }
+            Self::ChialvoSundaresan | Self::Frictional => carnahan_starling(phi) + phi * phi * a / (gap * gap.sqrt()),
         }
     }
 }

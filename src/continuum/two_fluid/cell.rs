@@ -48,8 +48,7 @@ impl Setting<'_> {
         let Cell { phi, u, v, t, rise, .. } = *cell;
         let eps = -phi + 1.0;
         let (slip, up) = (u - v, (rise + below) * 0.5 / eps);
-        let (k, share) =
-            laws.drag.per_volume(phi, (slip * slip + up * up).sqrt(), laws.drag.viscous(laws.nu, 1.0));
+        let (k, share) = laws.drag.per_volume(phi, (slip * slip + up * up).sqrt(), laws.drag.viscous(laws.nu, 1.0));
         let strength = phi * eps * k;
         let drag = strength * slip;
         let (contacts, drag_work) = match laws.moving {

@@ -35,7 +35,8 @@ pub fn equations(flow: &TwoFluid) -> String {
             kinetic(flow, law.kinetic(flow.e, flow.mu_p).e_eff, "(3 + 2 C_∞/C_D)", &mu_s)
         }
     };
-    let parts: Vec<String> = flow.granular.parts().iter().map(|info| format!("              {}\n", info.equation)).collect();
+    let parts: Vec<String> =
+        flow.granular.parts().iter().map(|info| format!("              {}\n", info.equation)).collect();
     let method = match flow.state {
         State::Steady => "steady: d/dt = 0, w = 0, by Newton's method",
         State::Transient => "in time, implicit",

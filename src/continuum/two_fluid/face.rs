@@ -125,7 +125,13 @@ pub fn mean_inverse<T: Real>(a: T, b: T) -> Option<T> {
 
 impl Setting<'_> {
     /// The face between `lower` and `upper`.
-    pub fn face<T: Real>(&self, halves: Halves, lower: &Cell<T>, upper: &Cell<T>, (clock, r): (Clock, Mobilised)) -> Face<T> {
+    pub fn face<T: Real>(
+        &self,
+        halves: Halves,
+        lower: &Cell<T>,
+        upper: &Cell<T>,
+        (clock, r): (Clock, Mobilised),
+    ) -> Face<T> {
         let laws = self.laws;
         let dz = halves.lower + halves.upper;
         let zero = T::constant(0.0);
@@ -148,7 +154,8 @@ impl Setting<'_> {
         let passing = leaving(lower.phi, upper.phi) * w;
         let fade = phi / (phi + laws.floors.phi);
         let pressure = (bernoulli(-a) * upper.per_grain - bernoulli(a) * lower.per_grain) / dz;
-        let mut vertical = (w * self.rate + clock.rise) * (phi / eps + laws.ratio) + fade * laws.weight + pressure + k * up;
+        let mut vertical =
+            (w * self.rate + clock.rise) * (phi / eps + laws.ratio) + fade * laws.weight + pressure + k * up;
         if laws.dispersion > 0.0 {
             vertical = vertical + k * eddy * a * (laws.dispersion / dz);
         }
@@ -185,7 +192,8 @@ impl Setting<'_> {
         let viscous = difference * laws.nu / (T::constant(halves.lower) / below + T::constant(halves.upper) / above);
         let middle = (lower.phi + upper.phi) * 0.5;
         let here = laws.mixing_length.length(lower.length, middle);
-        let inside = |clearance: T, half: f64| laws.mixing_length.length(lower.length + clearance * (0.5 * half), middle);
+        let inside =
+            |clearance: T, half: f64| laws.mixing_length.length(lower.length + clearance * (0.5 * half), middle);
         let mean = |near: T, half: f64| mean_inverse(here, near).map(|inverse| inverse * half);
         let parts = (
             mean(inside(-lower.clearance, 2.0 * halves.lower), halves.lower),

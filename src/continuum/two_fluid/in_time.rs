@@ -84,7 +84,8 @@ fn finish(flow: &TwoFluid, march: &March, samples: &[Sample], status: Status) ->
     let mut outcome = report(flow, &march.column, &march.state, Vec::new())?;
     outcome.status = status;
     // The balances of a steady flow do not hold in time.
-    outcome.balances = vec![balance("solids", march.drift, "largest deviation of the grains from those at rest, of all steps")];
+    outcome.balances =
+        vec![balance("solids", march.drift, "largest deviation of the grains from those at rest, of all steps")];
     outcome.balances.extend(march.imbalance().map(|(name, relative, how)| balance(name, relative, how)));
     let results = &mut outcome.results;
     results.set(&q::SOLIDS_DRIFT, march.drift);

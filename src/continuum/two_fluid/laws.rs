@@ -58,6 +58,12 @@ pub struct Floors {
 }
 
 impl Laws {
+    /// The time in which grains fall by their diameter, in that of the grains in the fluid: long where the fluid weighs little.
+    #[must_use]
+    pub fn fall(&self) -> f64 {
+        self.ratio.sqrt()
+    }
+
     /// The laws of `flow`, scaled.
     #[must_use]
     pub fn scaled(flow: &TwoFluid) -> Self {

@@ -10,8 +10,8 @@ use super::profile::profile;
 use super::state::Unknowns;
 use super::steady;
 use super::system::Column;
-use crate::closures::kinetic::{Granular, garzo_dufty};
 use crate::closures::friction::mu_i;
+use crate::closures::kinetic::{Granular, garzo_dufty};
 use crate::continuum::bed_results::{closure_name, outside};
 use crate::continuum::exact::{balance, outcome};
 use crate::problem::{State, TwoFluid};
@@ -182,9 +182,21 @@ fn balances(column: &Column, levels: &Levels) -> Vec<Balance> {
     let whole = (fluid + grains).abs().max(f64::MIN_POSITIVE);
     let [below, under] = levels.bottom;
     let mut balances = vec![
-        balance("momentum", (below + under - fluid - grains) / whole, "stress on the bottom against the drive of both phases"),
-        balance("momentum_fluid", (below + drag - fluid) / whole, "stress on the bottom and drag against the drive of the fluid, over that of both"),
-        balance("momentum_grains", (under - drag - grains) / whole, "stress on the bottom against drag and drive of the grains, over that of both"),
+        balance(
+            "momentum",
+            (below + under - fluid - grains) / whole,
+            "stress on the bottom against the drive of both phases",
+        ),
+        balance(
+            "momentum_fluid",
+            (below + drag - fluid) / whole,
+            "stress on the bottom and drag against the drive of the fluid, over that of both",
+        ),
+        balance(
+            "momentum_grains",
+            (under - drag - grains) / whole,
+            "stress on the bottom against drag and drive of the grains, over that of both",
+        ),
         balance("solids", levels.integral(|level| level.phi) / column.solids - 1.0, "grains against those at rest"),
     ];
     if let Moving::Kinetic(_) = laws.moving {

@@ -11,10 +11,10 @@ use super::face::Mobilised;
 use super::state::{SIZE, Unknowns};
 use super::system::{Column, Linear, Memory, unit};
 
-/// Shifts, in the time unit of the grains d/V.
-const SHIFTS: [f64; 3] = [0.02, 0.2, 1.0];
+/// Shifts, over the rate at which grains fall.
+const SHIFTS: [f64; 2] = [0.03, 0.3];
 /// Vectors of Arnoldi's method.
-const VECTORS: usize = 70;
+const VECTORS: usize = 60;
 /// Residual of an eigenvalue over itself below which it counts.
 const KNOWN: f64 = 1e-6;
 
@@ -31,7 +31,7 @@ impl Column {
     /// The disturbance of the steady flow `state` that grows fastest, or decays slowest; `None` if no eigenvalue was found.
     #[must_use]
     pub fn growth(&self, state: &[Unknowns]) -> Option<Growth> {
-        let found = SHIFTS.into_iter().filter_map(|shift| self.near(state, shift));
+        let found = SHIFTS.into_iter().filter_map(|shift| self.near(state, shift / self.laws.fall()));
         found.reduce(|a, b| if b.rate > a.rate { b } else { a })
     }
 
@@ -82,11 +82,13 @@ impl Column {
         let square = hessenberg.rows(0, size).into_owned();
         let last = hessenberg[(size, size - 1)];
         let values = square.complex_eigenvalues();
-        let growth = values.iter().filter(|value| resolved(&square, **value, last)).map(|value| {
+        let growth = |value: &nalgebra::Complex<f64>| {
             let inverse = 1.0 / value;
             Growth { rate: shift - inverse.re, frequency: inverse.im.abs() }
-        });
-        growth.filter(|g| g.rate.is_finite()).reduce(|a, b| if b.rate > a.rate { b } else { a })
+        };
+        let mut candidates: Vec<_> = values.iter().filter(|value| growth(value).rate.is_finite()).collect();
+        candidates.sort_by(|a, b| growth(b).rate.total_cmp(&growth(a).rate));
+        candidates.into_iter().find(|value| resolved(&square, **value, last)).map(growth)
     }
 }
 

@@ -10,10 +10,12 @@ use super::system::{Column, Linear, Memory, carried};
 const TRIALS: [(usize, f64); 4] = [(80, 1.0), (120, 1.0), (80, 1.6), (120, 0.6)];
 /// Drives from which the flow is followed down to the wanted one, over it.
 const STRONGER: [f64; 3] = [1.5, 2.5, 4.0];
-/// First, smallest and largest step of pseudo-time.
-const STEPS: (f64, f64, f64) = (0.1, 1e-6, 3e2);
+/// First, smallest and largest step of pseudo-time, in the time in which grains fall.
+const STEPS: [f64; 3] = [0.06, 1e-6, 2e2];
 /// Most iterations of one march.
-const MOST: usize = 900;
+const MOST: usize = 1300;
+/// Iterations after which no other way is tried.
+const MOST_IN_ALL: usize = 4000;
 /// Pace of a step of the march, of the last solution, and of its refinement.
 const ROUGH: Pace = Pace { tolerance: 1e-2, most: 8 };
 const FINE: Pace = Pace { tolerance: 1e-8, most: 40 };
@@ -41,7 +43,7 @@ pub fn coarser(column: &Column, cells: usize) -> Column {
 
 /// How far a march with the step `dt` is, from 0 to 1.
 fn share(dt: f64) -> f64 {
-    (dt / STEPS.0).max(1.0).ln() / (STEPS.2 / STEPS.0).ln()
+    (dt / STEPS[0]).max(1.0).ln() / (STEPS[2] / STEPS[0]).ln()
 }
 
 /// One step of backward Euler from `state`.
@@ -63,9 +65,9 @@ pub fn march(
     stop: &mut impl FnMut(f64) -> bool,
 ) -> Result<Vec<Unknowns>, Stalled> {
     let mut linear = Linear::new(column.cells());
-    let (mut dt, least, most) = STEPS;
+    let [mut dt, least, most] = STEPS.map(|step| step * column.laws.fall());
     let (start, mut best) = (*iterations, f64::INFINITY);
-    while *iterations - start < MOST && dt > least && !stop(share(dt)) {
+    while *iterations - start < MOST && dt > least && !stop(share(dt / column.laws.fall())) {
         let mut next = state.clone();
         match column.newton(&mut next, &euler(column, &state, dt), &mut linear, ROUGH) {
             Ok((made, norm)) => {
@@ -124,7 +126,7 @@ pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut(f64) 
     let from_above = STRONGER.into_iter().map(|factor| (&TRIALS[0], factor));
     let others = TRIALS[1..].iter().map(|trial| (trial, 1.0));
     for (&(cells, thickness), factor) in straight.chain(from_above).chain(others) {
-        if stop(0.0) {
+        if stop(0.0) || iterations > MOST_IN_ALL {
             break;
         }
         let (coarse, driven) = (coarser(column, cells), column.driven(factor));

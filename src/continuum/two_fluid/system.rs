@@ -171,7 +171,8 @@ impl Linear {
             for (side, block) in blocks.iter().enumerate() {
                 let Some(j) = (i + side).checked_sub(1).filter(|j| *j < n) else { continue };
                 for (row, slopes) in block.iter().enumerate() {
-                    product[SIZE * i + row] += slopes.iter().enumerate().map(|(k, slope)| slope * of(j, k)).sum::<f64>();
+                    product[SIZE * i + row] +=
+                        slopes.iter().enumerate().map(|(k, slope)| slope * of(j, k)).sum::<f64>();
                 }
             }
         }

@@ -11,7 +11,7 @@ use super::system::{Column, Linear, Memory, carried};
 
 /// Pace of a step: after it the residuals are round-off.
 const PACE: Pace = Pace { tolerance: 1e-7, most: 9 };
-/// First and smallest step, in units of the grains.
+/// First and smallest step, in the time in which grains fall.
 const STEPS: (f64, f64) = (1e-3, 1e-9);
 /// Largest growth and fall of a step, and what a failure of Newton's method leaves of it.
 const GROWTH: (f64, f64, f64) = (2.0, 0.2, 0.25);
@@ -62,7 +62,7 @@ impl March {
     /// From `state` at time 0.
     #[must_use]
     pub fn new(column: Column, state: Vec<Unknowns>) -> Self {
-        let linear = Linear::new(column.cells());
+        let (linear, dt) = (Linear::new(column.cells()), STEPS.0 * column.laws.fall());
         Self {
             column,
             time: 0.0,
@@ -71,7 +71,7 @@ impl March {
             refused: 0,
             iterations: 0,
             drift: 0.0,
-            dt: STEPS.0,
+            dt,
             before: Vec::new(),
             linear,
         }
@@ -109,7 +109,7 @@ impl March {
                 }
             };
             self.refused += 1;
-            if self.dt < STEPS.1 {
+            if self.dt < STEPS.1 * self.column.laws.fall() {
                 return Err(Stuck { time: self.time, dt: self.dt, residual });
             }
         }
@@ -197,9 +197,14 @@ impl March {
         let rows = linear.residual().as_chunks::<SIZE>().0;
         let missed: f64 = rows.iter().map(|row| row[FLUID] + row[GRAINS]).sum();
         let height: f64 = self.column.widths.iter().sum();
-        let drive = height * self.column.laws.drive[0].abs() + self.column.solids * self.column.laws.ratio * self.column.laws.drive[1].abs();
+        let drive = height * self.column.laws.drive[0].abs()
+            + self.column.solids * self.column.laws.ratio * self.column.laws.drive[1].abs();
         let scale = drive.max(self.column.solids * 1e-3);
-        Some(("momentum", missed / scale, "gain of both phases in the last step against drive and stress on the bottom, over the drive"))
+        Some((
+            "momentum",
+            missed / scale,
+            "gain of both phases in the last step against drive and stress on the bottom, over the drive",
+        ))
     }
 
     /// Solid volume that passes per width and time.

@@ -1,12 +1,12 @@
 //! The fluid is that of the shared column.
 
 use super::reference;
+use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::column::{Bottom, FluidColumn, Forcing, Grid, Medium, Newton, Setup, Top, ViscousForm};
 use crate::continuum::two_fluid::levels::Levels;
 use crate::continuum::two_fluid::state::{Cell, FLUID};
 use crate::continuum::two_fluid::steady;
 use crate::continuum::two_fluid::system::Memory;
-use crate::closures::mixture_viscosity::MixtureViscosity;
 
 #[test]
 fn one_medium_gives_the_same_stresses_to_both() {

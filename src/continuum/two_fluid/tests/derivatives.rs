@@ -24,11 +24,8 @@ fn deviation(column: &Column, memory: &Memory) -> f64 {
     let direction = |i: usize, k: usize| ((11 * i + 5 * k) as f64).cos() * if k == 0 { 1e-3 } else { 1.0 };
     let mut linear = Linear::new(column.cells());
     let mut residual = |h: f64| -> Vec<f64> {
-        let moved: Vec<Unknowns> = state
-            .iter()
-            .enumerate()
-            .map(|(i, x)| std::array::from_fn(|k| x[k] + h * direction(i, k)))
-            .collect();
+        let moved: Vec<Unknowns> =
+            state.iter().enumerate().map(|(i, x)| std::array::from_fn(|k| x[k] + h * direction(i, k))).collect();
         column.linearise(&moved, memory, &mobilised, &mut linear);
         linear.residual().to_vec()
     };

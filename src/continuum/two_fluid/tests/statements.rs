@@ -126,9 +126,7 @@ fn check(set: &[&str], theory: &Theory) {
         (at(&q::TAU_PARTICLE, i), rho_p * d * f2 * t.sqrt() * slope(&q::U_PARTICLE, i))
     });
     // mu_s = 0.146 + 0.228 tanh(0.4/0.232) = 0.359946.
-    near("stress of contacts", (0.58, 0.606), 0.01, &|i| {
-        (at(&q::TAU_CONTACT, i), 0.359_946 * at(&q::P_CONTACT, i))
-    });
+    near("stress of contacts", (0.58, 0.606), 0.01, &|i| (at(&q::TAU_CONTACT, i), 0.359_946 * at(&q::P_CONTACT, i)));
     let flux = |i: usize| {
         let t = at(&q::GRANULAR_TEMPERATURE, i);
         let (_, f3) = theory.coefficients(at(&q::PHI, i), t, k(i).0 * d / rho_p);
