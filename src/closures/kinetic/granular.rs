@@ -252,9 +252,11 @@ mod tests {
     fn limits_of_the_frictional_column() {
         let grains = proposed("").kinetic(0.7, 0.4);
         // Few grains: the coefficients vanish with them, the pressure is that of a gas.
-        let (eta, kappa) = grains.transport(1e-9, 0.635, 0.1, 2.0);
-        assert_relative_eq!(eta, 1e-9 * 0.1 / (5.0 * 2.0), max_relative = 1e-6);
-        assert_relative_eq!(kappa, 2.0 * eta, max_relative = 1e-6);
+        let few = |phi: f64| grains.transport(phi, 0.635, 0.1, 2.0);
+        // Saltation 0.1/(5 2) and collisions (4/5)(1.7)(0.0923153/0.87125), each times phi.
+        assert_relative_eq!(few(1e-9).0, 1e-9 * (0.01 + 0.144_102), max_relative = 1e-5);
+        assert_relative_eq!(few(2e-9).0 / few(1e-9).0, 2.0, max_relative = 1e-6);
+        assert_relative_eq!(few(2e-9).1 / few(1e-9).1, 2.0, max_relative = 1e-6);
         assert_relative_eq!(grains.pressure_per_grain(1e-9, 0.635), 1.0, max_relative = 1e-8);
         // Dense: contacts carry everything, with and without saltation.
         let (with, without) = (grains, Kinetic { saltation: None, ..grains });

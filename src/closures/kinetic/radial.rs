@@ -154,8 +154,8 @@ mod tests {
         assert_eq!(g0(Radial::Frictional, 0.55, 0.0), g0(Radial::ChialvoSundaresan, 0.55, 0.7));
         let law = Radial::Frictional;
         assert_relative_eq!(law.coefficient(20.0), 3.70, max_relative = 1e-12);
-        // tanh(0.4/0.54) = 0.62950.
-        assert_relative_eq!(law.coefficient(0.4), 0.58 + 3.12 * 0.629_502, max_relative = 1e-5);
+        // tanh(0.4/0.54) = 0.629592.
+        assert_relative_eq!(law.coefficient(0.4), 0.58 + 3.12 * 0.629_592, max_relative = 1e-5);
         // 0.5: 1.5/0.25 = 6 and 0.58 0.25/0.135^1.5 = 2.92330.
         assert_relative_eq!(g0(Radial::ChialvoSundaresan, 0.5, 0.0), 8.923_30, max_relative = 1e-5);
     }

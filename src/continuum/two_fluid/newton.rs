@@ -21,6 +21,9 @@ pub struct Stalled {
 pub struct Pace {
     /// largest change of a scaled unknown after which no step follows
     pub tolerance: f64,
+    /// largest force that a cell may miss then, in units of the weight of a layer of grains: the velocities of a bed at rest are
+    /// too small to say whether its stresses balance
+    pub force: f64,
     /// most iterations
     pub most: usize,
 }
@@ -57,7 +60,7 @@ impl Column {
         linear: &mut Linear,
         pace: Pace,
     ) -> Result<(usize, f64), Stalled> {
-        let mut best = f64::INFINITY;
+        let (mut best, mut settled) = (f64::INFINITY, false);
         let rate = self.laws.floors.rate;
         let mut shear: Vec<f64> = self.shear(state).collect();
         let mut mobilised: Vec<Mobilised> = shear.iter().map(|shear| Mobilised(shear / shear.hypot(rate))).collect();
@@ -68,6 +71,9 @@ impl Column {
                 return Err(Stalled { residual: best, iterations: iteration });
             }
             best = best.min(norm);
+            if settled && linear.missed() <= pace.force {
+                return Ok((iteration, norm));
+            }
             let Ok(step) = linear.step(state) else { return Err(Stalled { residual: best, iterations: iteration }) };
             let mut largest: f64 = 0.0;
             for (x, step) in state.iter_mut().zip(step.as_chunks::<SIZE>().0) {
@@ -90,7 +96,8 @@ impl Column {
                 *r = r.after(*from, to, rate);
                 *from = to;
             }
-            if largest <= pace.tolerance {
+            settled = largest <= pace.tolerance;
+            if settled && pace.force.is_infinite() {
                 return Ok((iteration + 1, norm));
             }
         }

@@ -17,8 +17,8 @@ const MOST: usize = 1300;
 /// Iterations after which no other way is tried.
 const MOST_IN_ALL: usize = 4000;
 /// Pace of a step of the march, of the last solution, and of its refinement.
-const ROUGH: Pace = Pace { tolerance: 1e-2, most: 8 };
-const FINE: Pace = Pace { tolerance: 1e-8, most: 40 };
+const ROUGH: Pace = Pace { tolerance: 1e-2, force: f64::INFINITY, most: 8 };
+const FINE: Pace = Pace { tolerance: 1e-8, force: 1e-10, most: 40 };
 /// First and smallest step of the logarithm of the drive.
 const WALK: (f64, f64) = (0.05, 1e-3);
 

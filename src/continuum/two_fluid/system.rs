@@ -6,7 +6,7 @@
 use super::cell::{Inside, Past};
 use super::face::{Clock, Face, Halves, Mobilised, Setting};
 use super::laws::Laws;
-use super::state::{Cell, GRAINS, RISE, SIZE, Unknowns, VOLUME};
+use super::state::{Cell, FLUID, GRAINS, RISE, SIZE, Unknowns, VOLUME};
 use crate::numerics::banded::{Banded, Singular};
 use crate::numerics::dual::{Dual, Real};
 
@@ -160,6 +160,13 @@ impl Linear {
     #[must_use]
     pub fn residual(&self) -> &[f64] {
         &self.residual
+    }
+
+    /// Largest force that a cell misses.
+    #[must_use]
+    pub fn missed(&self) -> f64 {
+        let rows = self.residual.chunks(SIZE);
+        rows.map(|row| row[FLUID].abs().max(row[GRAINS].abs())).fold(0.0, f64::max)
     }
 
     /// The derivatives along the direction that `of` gives to each unknown of each cell.

@@ -10,7 +10,7 @@ use super::state::{FLUID, GRAINS, HEAT, LOGIT, RISE, SIZE, Unknowns};
 use super::system::{Column, Linear, Memory, carried};
 
 /// Pace of a step: after it the residuals are round-off.
-const PACE: Pace = Pace { tolerance: 1e-7, most: 9 };
+const PACE: Pace = Pace { tolerance: 1e-7, force: f64::INFINITY, most: 9 };
 /// First and smallest step, in the time in which grains fall.
 const STEPS: (f64, f64) = (1e-3, 1e-9);
 /// Largest growth and fall of a step, and what a failure of Newton's method leaves of it.

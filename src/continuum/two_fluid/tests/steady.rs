@@ -81,17 +81,6 @@ fn the_pressure_carries_the_weight() {
 }
 
 #[test]
-fn without_shear_nothing_moves_but_what_seeps() {
-    // A slope without water: the bed holds, and the seepage has the drag that the slope drives.
-    let (flow, column) = reference(&["flow.shields=", "flow.depth=0", "flow.slope=0.01"], 80);
-    let solved = steady::solve(&column, flow.phi, 0.05, |_| false).unwrap();
-    let levels = Levels::new(&column, &solved.state);
-    assert!(levels.flux() < 1e-6, "{}", levels.flux());
-    let deep = &levels.cells[5];
-    assert_relative_eq!(deep.drag, (1.0 - deep.phi) * column.laws.drive[0], max_relative = 1e-3);
-}
-
-#[test]
 fn a_flow_too_large_to_compute_says_so() {
     let mut flow = flow("kinetic_1d_theta06", &[]);
     flow.eta = f64::MAX;
