@@ -205,6 +205,9 @@ fn trust(summary: &Summary) -> String {
         (Some(error), _) => format!("{:+.2e} by the regularisation", error),
         (None, Some(lambda)) if lambda > 0.0 => "regularised".into(),
         (None, Some(_)) => "exact yield".into(),
+        (None, None) if summary.regularisation.contains_key("granular_temperature_m2_s2") => {
+            "order 2 in its cells".into()
+        }
         (None, None) => "closed form, exact to round-off".into(),
     }
 }

@@ -32,7 +32,7 @@ pub static GRADIENT: Info = Info {
     equation: "u_d = -(ν_t/S_c) ∇φ/φ",
     source: "Chassagne et al. (2023), eq. (4.3)-(4.4); Chauchat (2018)",
     ranges: &[],
-    standing: Standing::Validated,
+    standing: Standing::Experimental,
 };
 
 /// Dispersion of the grains by turbulence.

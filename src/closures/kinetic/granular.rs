@@ -255,6 +255,8 @@ mod tests {
         let few = |phi: f64| grains.transport(phi, 0.635, 0.1, 2.0);
         // Saltation 0.1/(5 2) and collisions (4/5)(1.7)(0.0923153/0.87125), each times phi.
         assert_relative_eq!(few(1e-9).0, 1e-9 * (0.01 + 0.144_102), max_relative = 1e-5);
+        // The same for heat: 0.02 and (6/5)(1.7)(0.692364/1.476875).
+        assert_relative_eq!(few(1e-9).1, 1e-9 * (0.02 + 0.956_358), max_relative = 1e-5);
         assert_relative_eq!(few(2e-9).0 / few(1e-9).0, 2.0, max_relative = 1e-6);
         assert_relative_eq!(few(2e-9).1 / few(1e-9).1, 2.0, max_relative = 1e-6);
         assert_relative_eq!(grains.pressure_per_grain(1e-9, 0.635), 1.0, max_relative = 1e-8);

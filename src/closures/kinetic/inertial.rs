@@ -28,7 +28,7 @@ pub static INFO: Info = Info {
     equation: "τ = μ(I) p,  p = ρ_p (b φ/(φ_max - φ))² (d du_p/dz)²",
     source: "Maurin, Chauchat & Frey (2016); Chassagne et al. (2023), eq. (1.1)-(1.2)",
     ranges: &[INERTIAL_RANGE],
-    standing: Standing::Validated,
+    standing: Standing::Experimental,
 };
 
 /// Constants of dense granular flow.

@@ -24,7 +24,7 @@ pub static INFO: Info = Info {
     equation: "l_m = max(s (φ_max - φ)³, l₀)",
     source: "Berzi & Fraccarollo (2015); Chassagne et al. (2023), eq. (4.2)",
     ranges: &[Range { variable: "phi", min: 0.0, max: 0.635 }],
-    standing: Standing::Validated,
+    standing: Standing::Experimental,
 };
 
 /// Eddies between grains.

@@ -88,24 +88,6 @@ fn a_flow_too_large_to_compute_says_so() {
 }
 
 #[test]
-fn a_dry_film_is_that_of_bagnold() {
-    let flow = flow("two_fluid_1d_avalanche", &[]);
-    let column = outcome::column(&flow, 240).unwrap();
-    let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
-    let levels = Levels::new(&column, &solved.state);
-    // mu(I) = tan(24 deg): I = 0.279 (0.44523 - 0.38)/(0.64 - 0.44523) = 0.09344, phi = 0.61/(1 + 0.31 I) = 0.59283.
-    let (i, phi) = (0.093_44, 0.592_83);
-    let height = column.solids / phi;
-    let scale = 2.0 / 3.0 * i * (phi * column.laws.weight / column.laws.ratio).sqrt();
-    let surface = scale * height.powf(1.5);
-    for level in levels.cells.iter().filter(|level| level.z < 0.9 * height) {
-        let exact = scale * (height.powf(1.5) - (height - level.z).powf(1.5));
-        assert!((level.v - exact).abs() < 0.01 * surface, "z {}: {} {exact}", level.z, level.v);
-        assert!((level.phi - phi).abs() < 2e-3, "z {}: phi {}", level.z, level.phi);
-    }
-}
-
-#[test]
 fn near_the_threshold_the_steady_flow_is_unstable() {
     let growth = |set: &[&str]| {
         let (flow, column) = reference(set, 120);
