@@ -29,7 +29,9 @@ fn rate(folder: &Path, run: u32, (name, _, changes): &(&str, &str, &[&str])) -> 
     if !out.join("summary.json").exists() {
         let mut command = Command::new("target/release/bedload");
         command.args(["run", &format!("coupled_2d_exp{run}_quick"), "--quiet", "--out"]).arg(&out);
-        changes.iter().for_each(|change| drop(command.args(["--set", change])));
+        for change in *changes {
+            command.args(["--set", change]);
+        }
         command.status()?;
     }
     let summary: serde_json::Value = serde_json::from_str(&fs::read_to_string(out.join("summary.json"))?)?;

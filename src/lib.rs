@@ -14,7 +14,7 @@
 //! | [`case`] | case files: text, spans, schema, diagnostics. The only room that knows TOML |
 //! | [`problem`] | checked, immutable values in SI |
 //! | [`column`] | the fluid of one dimension: its momentum among whatever grains |
-//! | [`continuum`], [`discrete`] | models: fields, grains one by one |
+//! | [`continuum`], [`discrete`], [`section`] | models: columns, grains one by one, cross-sections |
 //! | `run` | [`run()`]: the one entry point |
 //! | [`plot`] | figures and pages |
 //! | [`compare`] | several runs and measured profiles side by side |
@@ -46,6 +46,7 @@ pub mod problem;
 pub mod result;
 mod run;
 pub mod runtime;
+pub mod section;
 pub mod study;
 pub mod units;
 pub mod validate;

@@ -7,8 +7,9 @@ use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
 use crate::continuum::{laminar, sheet_flow, two_fluid};
 use crate::discrete::{bed as grain_bed, couple, impact, trials};
-use crate::problem::{Model, Problem, RegularisedBed};
+use crate::problem::{Contents, DuctFlow, Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
+use crate::section;
 
 /// Relative residual of a balance from which on a closed form has lost its digits: its value is round-off otherwise.
 const LARGEST_IMBALANCE: f64 = 1e-3;
@@ -28,6 +29,8 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
         Model::SheetFlow(flow) => sheet_flow::run(flow, problem.cells, watch),
         Model::TwoFluid(flow) => two_fluid::run(flow, problem.cells, watch),
+        Model::Duct(flow) => section::run(flow, problem.cells, watch),
+        Model::Cavity(flow) => section::run_cavity(flow, problem.cells, watch),
         Model::Grains(bed) => grain_bed::run(bed, watch),
         Model::Coupled(flow) => couple::run(flow, watch),
         Model::Impact(one) => impact::run(one, watch),
@@ -48,6 +51,8 @@ pub fn equations(problem: &Problem) -> String {
         Model::Bingham(plane) => laminar::bingham_equations(plane),
         Model::SheetFlow(flow) => sheet_flow::equations(flow),
         Model::TwoFluid(flow) => two_fluid::equations(flow),
+        Model::Duct(flow) => section::equations(flow),
+        Model::Cavity(flow) => section::cavity_equations(flow),
         Model::Grains(bed) => grain_bed::equations(bed),
         Model::Coupled(flow) => couple::equations(flow),
         Model::Impact(one) => impact::equations(one),
@@ -59,14 +64,15 @@ pub fn equations(problem: &Problem) -> String {
 #[must_use]
 pub fn closures(problem: &Problem) -> Vec<&'static Info> {
     match &problem.model {
-        Model::Ouriemi(bed) | Model::Laminar(RegularisedBed { bed, .. }) => {
+        Model::Ouriemi(bed)
+        | Model::Laminar(RegularisedBed { bed, .. })
+        | Model::Duct(DuctFlow { contents: Contents::Bed(bed), .. }) => {
             let friction = if bed.rise.is_some() { &friction::mu_iv::INFO } else { &friction::coulomb::INFO };
             let mut laws = vec![friction, bed.viscosity.info()];
             laws.extend(bed.drag.map(|_| &carman_kozeny::INFO));
             laws.extend(bed.dilatancy.map(|_| &phi_iv::INFO));
             laws
         }
-        Model::BinghamPlane(_) | Model::Bingham(_) => Vec::new(),
         Model::TwoFluid(flow) => {
             let mut laws = vec![flow.granular.info()];
             laws.extend(flow.granular.parts());
@@ -74,6 +80,7 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             laws.extend([flow.mixing_length.info(), flow.dispersion.info()]);
             laws
         }
+        Model::BinghamPlane(_) | Model::Bingham(_) | Model::Duct(_) | Model::Cavity(_) => Vec::new(),
         Model::Grains(_) | Model::Impact(_) | Model::Trial(_) => vec![&linear_spring::INFO],
         Model::Coupled(flow) => vec![
             &linear_spring::INFO,

@@ -32,6 +32,8 @@ impl Fault {
             Self::TooSteep { definition: "sine", .. } => Some("less than 1".into()),
             Self::TooSteep { .. } => Some("less than 90 deg".into()),
             Self::RoughnessAboveFlow { height, .. } => Some(format!("k_s less than {} m", 30.0 * height)),
+            Self::Slender { low, high, .. } => Some(format!("{low} to {high} heights")),
+            Self::DualIsExact => Some("newton; first-order with regularisation.law = \"none\"".into()),
             Self::TooLarge { limit } => Some(format!("at most {limit} bytes")),
             _ => None,
         }
@@ -71,6 +73,8 @@ impl Fault {
             Self::Floating { .. } => Some("grains.density must exceed fluid.density".into()),
             Self::IterationNeedsCreep => Some("give [regularisation] a law and a lambda, or take newton".into()),
             Self::NeedsTime => Some("remove flow.oscillation, or set model.state = \"transient\"".into()),
+            Self::NoWidth => Some("remove it, or set flow.shape = \"rectangle\"".into()),
+            Self::Slender { .. } => Some("shape = \"planes\" is the limit of a wide section".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
             Self::CheckLevel { column: true, .. } => Some("for example at = \"10 mm\"".into()),
             Self::CheckLevel { .. } => Some("remove it".into()),

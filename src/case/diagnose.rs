@@ -68,7 +68,7 @@ impl Walk {
         let solutions: Vec<&str> = of_kind.iter().filter_map(|s| s.tags().1).collect();
         let found = of_kind.iter().find(|s| s.tags().1.is_none() || s.tags().1 == tag("solution"));
         if found.is_none() {
-            self.tag(document, "solution", &solutions, "the closed form");
+            self.tag(document, "solution", &solutions, "what is solved");
         }
         found.map(|s| {
             let name = s.name;

@@ -231,6 +231,22 @@ pub enum Fault {
         /// whether the law is `none`
         exact: bool,
     },
+    /// A width where the outline has none.
+    #[error("only a rectangle has a width")]
+    NoWidth,
+    /// A section that is much wider than high, or the reverse.
+    #[error("the width is {ratio} times the height: a section takes {low} to {high}")]
+    Slender {
+        /// width over height
+        ratio: f64,
+        /// smallest
+        low: f64,
+        /// largest
+        high: f64,
+    },
+    /// The first-order method with a regularisation.
+    #[error("the first-order method has the exact yield only")]
+    DualIsExact,
     /// A law whose packing is looser than that of the bed.
     #[error("phi_max = {phi_max} of {law} must reach {bed}, that of the bed at rest (closures.dilatancy)")]
     PackedBeyond {
@@ -320,6 +336,9 @@ impl Fault {
             Self::TooSteep { .. } => "too-steep",
             Self::GrainRoom { .. } => "grain-room",
             Self::RegularisationSize { .. } => "regularisation-size",
+            Self::NoWidth => "no-width",
+            Self::Slender { .. } => "slender",
+            Self::DualIsExact => "dual-is-exact",
             Self::PackedBeyond { .. } => "packed-beyond",
             Self::IterationNeedsCreep => "iteration-needs-creep",
             Self::NeedsTime => "needs-time",

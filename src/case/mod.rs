@@ -18,6 +18,7 @@ mod reference;
 mod render;
 pub mod scene;
 pub mod schema;
+pub mod section;
 pub mod sheet;
 pub mod shipped;
 pub mod tables;

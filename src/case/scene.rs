@@ -11,6 +11,9 @@ use super::grain_tables::{
     Discrete, GrainBed, GrainClosures, GrainFlow, GrainsModel, ImpactFlow, ImpactModel, ImpactSteps, TrialFlow,
     TrialModel,
 };
+use super::section::{
+    BedFlow, BedModel, CavityFlow, CavityGrid, CavityModel, DuctFlow, DuctModel, SectionGrid, SectionSolver,
+};
 use super::sheet::{SheetBed, SheetClosures, SheetFlowTable, SheetGrid, SheetModel, SheetRegularisation, SheetSolver};
 use super::tables::{
     About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamKindModel, BinghamModel, Film, FilmClosures, FilmFlow,
@@ -175,6 +178,66 @@ scenes! {
         /// Cells of the solver.
         #[serde(default)]
         grid: YieldGrid,
+    }
+    /// Yield-stress fluid along a duct, in its cross-section.
+    Duct ("section/duct") {
+        /// The material.
+        fluid: BinghamFluid,
+        /// Geometry and drive.
+        flow: DuctFlow,
+        /// The model.
+        model: DuctModel,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Elements of the section.
+        #[serde(default)]
+        grid: SectionGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
+    }
+    /// Laminar flow along a duct over a bed of grains, in its cross-section.
+    DuctBed ("section/bed") {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: Bed,
+        /// Geometry and drive.
+        flow: BedFlow,
+        /// The model.
+        model: BedModel,
+        /// Laws.
+        closures: BedClosures,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Elements of the section.
+        #[serde(default)]
+        grid: SectionGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
+    }
+    /// Slow flow of a yield-stress fluid in a square cavity under a sliding lid.
+    Cavity ("section/cavity") {
+        /// The material.
+        fluid: BinghamFluid,
+        /// Geometry and drive.
+        flow: CavityFlow,
+        /// The model.
+        model: CavityModel,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the cavity.
+        #[serde(default)]
+        grid: CavityGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
     }
     /// Turbulent flow over a bed of grains that shear as dense granular flow, with a suspension above.
     SheetFlow ("sheet-flow") {

@@ -196,8 +196,11 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
 fn trust(summary: &Summary) -> String {
     let known = summary.results.iter().find(|(name, _)| *name == quantity::TRANSPORT_RATE.name);
     if let Some(error) = known.and_then(|(_, reported)| reported.stderr) {
-        let value = known.and_then(|(_, reported)| reported.value).unwrap_or(f64::NAN);
-        return format!("± {} %", significant(100.0 * error / value.abs(), 2));
+        let value = known.and_then(|(_, reported)| reported.value).filter(|value| *value != 0.0);
+        return match value {
+            Some(value) => format!("± {} %", significant(100.0 * error / value.abs(), 2)),
+            None => format!("± {}", readable(error, quantity::TRANSPORT_RATE.unit)),
+        };
     }
     let lambda = |key: &str| summary.regularisation.get(key).and_then(Value::as_f64);
     let lambda = lambda("lambda_scaled").or_else(|| lambda("lambda_1_s"));
@@ -215,6 +218,8 @@ fn trust(summary: &Summary) -> String {
 /// Numbers of the closing lines, a line each, named by the first.
 const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::SHIELDS, &quantity::U_STAR],
+    &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
+    &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
     &[&quantity::LAYER_THICKNESS, &quantity::TEMPERATURE_MAX, &quantity::GROWTH_RATE],
     &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],

@@ -124,8 +124,8 @@ fn apply<C: ContactLaw, L: Lanes>(
             spin[k].store(&mut acts[k + 3]);
         }
         tile.found.overlap = tile.found.overlap.max((overlap / radius).largest());
-        for l in 0..used {
-            let grain = tile.walls.grains[touching.slots[at + l] as usize] as usize;
+        for (l, &slot) in touching.slots[at..at + used].iter().enumerate() {
+            let grain = tile.walls.grains[slot as usize] as usize;
             let to = &mut loads[grain - tile.grains.start].0;
             for k in 0..3 {
                 tile.found.walls[k] += acts[k][l];

@@ -6,5 +6,6 @@ pub mod dual;
 pub mod levels;
 pub mod quadrature;
 pub mod root;
+pub mod sparse;
 pub mod sum;
 pub mod thomas;

@@ -9,8 +9,18 @@ use super::{comparison, study};
 use crate::result::{Status, Summary};
 
 /// Files that a run folder may hold; anything else in it is not ours.
-pub(super) const OURS: &[&str] =
-    &["summary.json", "case.toml", "profile.csv", "series.csv", "report.html", FIGURES, CHECKPOINT, "grains.csv"];
+pub(super) const OURS: &[&str] = &[
+    "summary.json",
+    "case.toml",
+    "profile.csv",
+    "series.csv",
+    "report.html",
+    FIGURES,
+    CHECKPOINT,
+    "grains.csv",
+    "section.csv",
+    "section.vts",
+];
 /// The one folder in it, of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
 /// Written and removed to see whether files can be made.

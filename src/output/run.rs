@@ -12,6 +12,7 @@ use super::folder::{Folder, OutputError, write_whole};
 use crate::case::Case;
 use crate::plot::{self, Figure, Page};
 use crate::problem::Problem;
+use crate::result::quantity;
 use crate::result::{
     Cost, ErrorReport, Failure, Outcome, Profile, Provenance, Results, Series, Status, Summary, TableError,
 };
@@ -186,8 +187,8 @@ fn draw(
     let figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
     let page = {
         let (equations, notes) = (crate::equations(problem), [problem.title.clone()]);
-        let picture = fs::File::open(place.join("grains.csv")).ok().and_then(|f| plot::grains_svg(BufReader::new(f)));
-        let (figures, picture) = (&figures, picture.as_deref());
+        let picture = picture(place, summary);
+        let (figures, picture) = (&figures, picture.as_ref().map(|(svg, caption)| (svg.as_str(), *caption)));
         plot::report_html(&Page { summary, figures, picture, equations: &equations, case_toml: case, notes: &notes })
     };
     write_whole(&place.join("report.html"), |to| to.write_all(page.as_bytes()))?;
@@ -195,6 +196,20 @@ fn draw(
         return Ok(Vec::new());
     }
     draw_png(place, shown, &figures)
+}
+
+/// The picture of a run that has a table for one, with its caption.
+fn picture(place: &Path, summary: &Summary) -> Option<(String, &'static str)> {
+    let table = |name: &str| fs::File::open(place.join(name)).ok().map(BufReader::new);
+    if let Some(svg) = table("grains.csv").and_then(plot::grains_svg) {
+        let caption =
+            "Side view of the grains nearest to the viewer at the end, coloured by their velocity along the flow.";
+        return Some((svg, caption));
+    }
+    let half = summary.results.get(quantity::FLOW_RATE.name).is_some();
+    let svg = plot::section_svg(table("section.csv")?, half, summary.results.get(quantity::BED_LEVEL.name))?;
+    let caption = "Velocity in the section; inside the white lines the material does not yield. Dashed: the bed level.";
+    Some((svg, caption))
 }
 
 /// Draws figures as PNG into `place`/figures; `shown` is what that place is called in the paths that are returned.

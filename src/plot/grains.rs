@@ -50,6 +50,13 @@ pub fn grains_svg(table: impl BufRead) -> Option<String> {
             colour(share)
         );
     }
+    svg += &scale_bar(width, height, (slow, fast));
+    Some(svg + "</svg>")
+}
+
+/// The colours from slow to fast under a picture, with the two velocities [m/s].
+pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64)) -> String {
+    let mut svg = String::new();
     for step in 0..60 {
         let at = 0.3 * width * f64::from(step) / 60.0;
         let _ = writeln!(
@@ -62,16 +69,17 @@ pub fn grains_svg(table: impl BufRead) -> Option<String> {
     }
     let _ = writeln!(
         svg,
-        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"13\" fill=\"currentColor\">{} to {}</text></svg>",
+        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"13\" fill=\"currentColor\">{} to {}</text>",
         0.3 * width + 8.0,
         height + 17.0,
         readable(slow, "m/s"),
         readable(fast, "m/s")
     );
-    Some(svg)
+    svg
 }
 
-fn colour(share: f64) -> String {
+/// Colour of a share of the largest velocity.
+pub(super) fn colour(share: f64) -> String {
     let at = share.clamp(0.0, 1.0) * (COLOURS.len() - 1) as f64;
     let i = (at as usize).min(COLOURS.len() - 2);
     let part = at - i as f64;

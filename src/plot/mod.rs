@@ -13,6 +13,7 @@ mod layout;
 mod png;
 mod profile;
 mod report;
+mod section;
 mod several;
 mod sheet;
 mod svg;
@@ -29,6 +30,7 @@ pub use grains::grains_svg;
 pub use png::png;
 pub use profile::profile_figures;
 pub use report::{Page, report_html};
+pub use section::section_svg;
 pub use several::{Trace, shared_figures};
 pub use svg::svg;
 

@@ -19,7 +19,7 @@ pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
         scene.stresses(),
         scene.single("solid fraction φ", &quantity::PHI, GRAINS),
         scene.single("flux φuₚ", &quantity::FLUX, GRAINS),
-        scene.single("granular temperature", &quantity::GRANULAR_TEMPERATURE, GRAINS),
+        scene.single("T", &quantity::GRANULAR_TEMPERATURE, GRAINS),
     ]
     .into_iter()
     .flatten()
@@ -148,6 +148,7 @@ impl<'a> Scene<'a> {
             ("fluid", &quantity::U_FLUID, FLUID),
             ("grains", &quantity::U_PARTICLE, GRAINS),
         ];
+        let planes = self.column(&quantity::U_PLANES).map(<[_]>::to_vec);
         let present: Vec<Line> = candidates
             .into_iter()
             .filter_map(|(name, q, pen)| Some(Line { name, pen, quantity: Some(q), values: self.column(q)?.to_vec() }))
@@ -157,6 +158,12 @@ impl<'a> Scene<'a> {
         if lines.len() == candidates.len() {
             lines.remove(0);
         }
+        lines.extend(planes.map(|values| Line {
+            name: "between planes",
+            pen: TURBULENCE,
+            quantity: Some(&quantity::U_PLANES),
+            values,
+        }));
         self.panel("velocity", "m/s", lines)
     }
 

@@ -17,8 +17,8 @@ pub struct Page<'a> {
     pub summary: &'a Summary,
     /// in order
     pub figures: &'a [Figure],
-    /// a picture of grains as SVG, if there are any
-    pub picture: Option<&'a str>,
+    /// a picture as SVG with its caption, if there is one
+    pub picture: Option<(&'a str, &'a str)>,
     /// the equations solved, as text with line breaks
     pub equations: &'a str,
     /// the resolved case
@@ -54,10 +54,10 @@ pub fn report_html(page: &Page<'_>) -> String {
     html += &balances(summary);
     html += &validity(summary);
     html += &figures(page.figures);
-    if let Some(picture) = page.picture {
+    if let Some((picture, caption)) = page.picture {
         html += &format!(
-            "<figure id=\"grains\"><div class=\"wide\">{picture}</div><figcaption>Side view of the grains nearest to the \
-             viewer at the end, coloured by their velocity along the flow.</figcaption></figure>\n"
+            "<figure id=\"picture\"><div class=\"wide\">{picture}</div><figcaption>{}</figcaption></figure>\n",
+            escape(caption)
         );
     }
     for note in page.notes {

@@ -137,9 +137,9 @@ pub(super) fn size(table: &RegularisationTable, faults: &mut Faults) -> Option<S
 }
 
 /// The tables of a laminar bed.
-type Tables<'a> = (&'a Fluid, &'a Grains, &'a Bed, &'a LaminarFlow, &'a BedClosures);
+pub(super) type Tables<'a> = (&'a Fluid, &'a Grains, &'a Bed, &'a LaminarFlow, &'a BedClosures);
 
-fn laminar_bed(
+pub(super) fn laminar_bed(
     tables: Tables<'_>,
     form: Form,
     model: &str,

@@ -4,6 +4,7 @@ mod bed;
 mod coupled;
 mod grains;
 mod others;
+mod section;
 mod sheet;
 mod two_fluid;
 
@@ -12,6 +13,7 @@ pub use bed::{Drive, LaminarBed, RegularisedBed};
 pub use coupled::{Coupled, Surface};
 pub use grains::{GrainBed, Impact, Trial};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
+pub use section::{CavityFlow, Contents, DuctFlow, Method, Outline, SectionMethod};
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
 pub use two_fluid::{FluidStress, State, TwoFluid};
 
@@ -52,6 +54,10 @@ pub enum Model {
     SheetFlow(SheetFlow),
     /// grains and fluid as two fluids
     TwoFluid(TwoFluid),
+    /// flow along a duct, in its cross-section
+    Duct(DuctFlow),
+    /// flow in a cavity under a sliding lid
+    Cavity(CavityFlow),
     /// a bed of spheres, grain by grain
     Grains(GrainBed),
     /// grains in a fluid that drives them
@@ -113,6 +119,9 @@ impl Problem {
             Scene::TwoFluid(scene) => {
                 (two_fluid::two_fluid(scene, case.model, &mut faults).map(Model::TwoFluid), scene.grid.cells)
             }
+            Scene::Duct(scene) => (section::duct(scene, &mut faults).map(Model::Duct), scene.grid.cells),
+            Scene::DuctBed(scene) => (section::bed(scene, case.model, &mut faults).map(Model::Duct), scene.grid.cells),
+            Scene::Cavity(scene) => (section::cavity(scene, &mut faults).map(Model::Cavity), scene.grid.cells),
             Scene::GrainsBed(scene) => {
                 let bed = grains::bed(scene, &mut faults);
                 (bed.map(Model::Grains), bed.map_or(0, |bed| bed.mobile))
@@ -144,6 +153,9 @@ impl Problem {
     pub fn model_name(&self) -> String {
         match &self.model {
             Model::Ouriemi(bed) | Model::Laminar(RegularisedBed { bed, .. }) => {
+                format!("{}, {}", self.kind, bed.form_name())
+            }
+            Model::Duct(DuctFlow { contents: Contents::Bed(bed), .. }) => {
                 format!("{}, {}", self.kind, bed.form_name())
             }
             _ => self.kind.to_owned(),

@@ -150,6 +150,20 @@ pub enum SolveError {
         /// residual of the step, or its error
         residual: f64,
     },
+    /// A convex minimum that the method does not find.
+    #[error(
+        "the {method} method ends {change:.3e} (relative) from its goal after {iterations} iterations, at lambda = {lambda_1_s:.3e} 1/s"
+    )]
+    Unsettled {
+        /// the method
+        method: &'static str,
+        /// last relative change of the velocity, or duality gap
+        change: f64,
+        /// iterations made
+        iterations: usize,
+        /// smoothing of the yield stress [1/s]
+        lambda_1_s: f64,
+    },
     /// A result that is not a finite number.
     #[error("{column} is not finite in row {row}")]
     NotFinite {
@@ -221,6 +235,7 @@ impl SolveError {
             Self::NotConverged { .. } => "not-converged",
             Self::NoSteadyFlow { .. } => "no-steady-flow",
             Self::StuckInTime { .. } => "stuck-in-time",
+            Self::Unsettled { .. } => "unsettled",
             Self::NotFinite { .. } => "not-finite",
             Self::NotRepresentable { .. } => "not-representable",
             Self::Unbalanced { .. } => "unbalanced",
@@ -252,6 +267,10 @@ impl SolveError {
             Self::NotFinite { .. } | Self::NotRepresentable { .. } | Self::Unbalanced { .. } => {
                 "a value of the case is far from those of any flow: case.toml has all of them in SI".into()
             }
+            Self::Unsettled { .. } => {
+                "take model.method = \"newton\", raise solver.iterations or solver.tolerance, or change grid.cells"
+                    .into()
+            }
             Self::Grains { hint, .. } => (*hint).into(),
             Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {
                 "this should not happen for a checked case: please report it with case.toml".into()
@@ -271,6 +290,20 @@ impl From<TableError> for SolveError {
 }
 
 impl Outcome {
+    /// A run that was stopped before it had anything to show.
+    #[must_use]
+    pub fn stopped() -> Self {
+        Self {
+            status: Status::Stopped,
+            profile: None,
+            series: None,
+            results: Results::default(),
+            balances: Vec::new(),
+            validity: Vec::new(),
+            regularisation: Map::new(),
+        }
+    }
+
     /// The outcome, if every number in it is one and its balances close to `limit`; else a failure that keeps what can be kept.
     ///
     /// # Errors

@@ -60,7 +60,7 @@ pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
     let (case, problem) = Problem::load(&request.case, &request.overrides).map_err(Box::new)?;
     let Some(focus) = Focus::of(&problem) else {
         let (over, model) = (request.over.name(), case.model.to_owned());
-        return Err(StudyError::NoSuchSetting { over, model, allowed: "laminar and bingham" });
+        return Err(StudyError::NoSuchSetting { over, model, allowed: "laminar, bingham and section" });
     };
     let plan = |reference: &str, varied: &str, points| Plan {
         verb: "converge",
@@ -87,7 +87,11 @@ pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
                 }
             };
             let reference = if closed.is_some() { Reference::Exact } else { Reference::Finest };
-            let points = mesh::points(reference);
+            let Some(meshes) = focus.meshes else {
+                let (over, model) = (request.over.name(), case.model.to_owned());
+                return Err(StudyError::NoSuchSetting { over, model, allowed: "laminar, bingham and ducts" });
+            };
+            let points = mesh::points(reference, meshes);
             let judge = move |rows: &[Row]| mesh::judge(&focus, closed.as_ref(), rows);
             Ok((plan(reference.name(), mesh::KEY, points), Box::new(judge)))
         }

@@ -20,6 +20,8 @@ use crate::units::significant;
 const PLACES: usize = 200;
 /// A rate that is known worse than this is not fitted.
 const POOR: f64 = 0.5;
+/// A rate below which nothing moves.
+const REST: f64 = 1e-6;
 /// Fewest points for three free numbers.
 const FEWEST: usize = 5;
 
@@ -74,6 +76,11 @@ pub(super) fn judge(keys: &[&str], rows: &[Row], judgement: &mut Judgement) {
         curves.push(Curve { line: None, colour: i + 1, ..curve(label, i, points) });
         (low, high) = found.iter().fold((low, high), |(a, b), k| (a.min(k.theta), b.max(k.theta)));
         let at = if name.is_empty() { String::new() } else { format!(" ({name})") };
+        let rest = resting(rows, name);
+        if let (Some(rest), Some(first)) = (rest, found.first()) {
+            let text = format!("θ* = {}; θ* = {} moves", significant(rest, 3), significant(first.theta, 3));
+            judgement.findings.push((format!("at rest up to{at}"), text));
+        }
         if let Some((law, errors)) = fit(&found) {
             let of = |k: usize| format!("{} ± {}", significant(law.numbers()[k], 3), significant(errors[k], 2));
             let text = format!("A = {}, θ_c = {}, n = {}; {} points", of(0), of(1), of(2), found.len());
@@ -81,7 +88,7 @@ pub(super) fn judge(keys: &[&str], rows: &[Row], judgement: &mut Judgement) {
             let fact =
                 json!({ "factor": law.factor, "threshold": law.threshold, "exponent": law.exponent, "stderr": errors });
             judgement.facts.insert(format!("fit {name}").trim().to_owned(), fact);
-            let span = (law.threshold, found.iter().map(|k| k.theta).fold(0.0, f64::max));
+            let span = (law.threshold.max(rest.unwrap_or(0.0)), found.iter().map(|k| k.theta).fold(0.0, f64::max));
             curves.push(drawn("", i + 1, Dash::Solid, span, |x| law.factor * (x - law.threshold).powf(law.exponent)));
         }
         if let Some((threshold, error)) = intercept(&found) {
@@ -110,6 +117,13 @@ fn drawn(name: &str, colour: usize, dash: Dash, (from, to): (f64, f64), law: imp
     let place = |k: usize| from + (to - from) * (k as f64 / PLACES as f64).powi(3);
     let points = (1..=PLACES).map(|k| Some((place(k), law(place(k))))).map(|p| p.filter(|p| p.1 > 1e-5));
     Curve { name: name.into(), points: points.collect(), colour, line: Some(dash), ..Curve::default() }
+}
+
+/// The largest Shields number of a series whose grains rest.
+fn resting(rows: &[Row], series: &str) -> Option<f64> {
+    let of = rows.iter().filter(|row| row.status == Status::Done && row.point.series == series);
+    let rests = |row: &&Row| row.result(q::TRANSPORT_RATE_DIMENSIONLESS.name).is_some_and(|rate| rate < REST);
+    of.filter(rests).filter_map(|row| row.result(q::SHIELDS_TURBULENT.name)).reduce(f64::max)
 }
 
 /// The rates of a series that are known, from the smallest Shields number on.

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::Row;
 use crate::compare::norms::deviation;
-use crate::problem::{BinghamDrive, Model, Problem, RegularisedBed, RegularisedPlane};
+use crate::problem::{BinghamDrive, Contents, Model, Problem, RegularisedBed, RegularisedPlane};
 use crate::result::quantity::{self as q, Quantity};
 use crate::result::{Profile, Results};
 
@@ -23,10 +23,29 @@ pub(super) struct Focus {
     pub number: (&'static Quantity, &'static str),
     /// whether the velocity of the grains at the bed level is one of the measures
     pub bed: bool,
+    /// meshes over which it converges
+    pub meshes: Option<Meshes>,
     /// yield stress [Pa] times height over viscosity [m/s], which over a velocity is the Bingham number
     yield_velocity: f64,
     /// the Bingham number in words
     pub bingham: &'static str,
+}
+
+/// Meshes of a study, each with twice the cells of the one before.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meshes {
+    /// cells of the coarsest
+    pub coarsest: usize,
+    /// number of meshes
+    pub count: u32,
+    /// key that places a node or a row on the yield level
+    pub node: &'static str,
+}
+
+impl Meshes {
+    /// A multiple of 12, so that the cells of every layer double with the mesh.
+    const PLANE: Self = Self { coarsest: 24, count: 7, node: "grid.yield_node" };
+    const SECTION: Self = Self { coarsest: 12, count: 4, node: "grid.yield_row" };
 }
 
 /// Columns of the measures, in this order.
@@ -55,6 +74,7 @@ impl Focus {
                 velocity_unit: bed.velocity_scale(),
                 number: (&q::TRANSPORT_RATE, "transport_rate"),
                 bed: true,
+                meshes: Some(Meshes::PLANE),
                 // the yield stress of the first layer of grains, as in section 3.2 of the paper
                 yield_velocity: bed.friction.mu_s * (bed.rho_p - bed.rho_f) * bed.g * bed.d * bed.h / bed.eta,
                 bingham: "μ_s (ρ_p - ρ_f) g d H/(η U_m)",
@@ -69,8 +89,43 @@ impl Focus {
                 velocity_unit: plane.shear_scale() * plane.h,
                 number: (&q::PLUG_VELOCITY, "plug_velocity"),
                 bed: false,
+                meshes: Some(Meshes::PLANE),
                 yield_velocity: plane.tau_0 * plane.h / plane.eta,
                 bingham: "τ_0 H/(η U_m)",
+            }),
+            Model::Duct(flow) => {
+                let (unit, number, yields, bingham) = match &flow.contents {
+                    Contents::Bingham { tau_0, .. } => {
+                        ("λ η/(G H)", (&q::FLOW_RATE, "flow_rate"), *tau_0, "τ_0 H/(η U_m)")
+                    }
+                    Contents::Bed(bed) => {
+                        let yields = bed.friction.mu_s * (bed.rho_p - bed.rho_f) * bed.g * bed.d;
+                        let number = (&q::BED_FLUX, "bed_flux");
+                        ("λ η/(Δρ g H)", number, yields, "μ_s (ρ_p - ρ_f) g d H/(η U_m)")
+                    }
+                };
+                Some(Self {
+                    velocity: &q::U_MIXTURE,
+                    lambda: unit,
+                    shear_unit: flow.shear_scale(),
+                    velocity_unit: flow.shear_scale() * flow.h,
+                    number,
+                    bed: false,
+                    meshes: Some(Meshes::SECTION),
+                    yield_velocity: yields * flow.h / flow.viscosity(),
+                    bingham,
+                })
+            }
+            Model::Cavity(flow) => Some(Self {
+                velocity: &q::U_MIXTURE,
+                lambda: "λ H/U",
+                shear_unit: flow.lid / flow.h,
+                velocity_unit: flow.lid,
+                number: (&q::STREAM_MAX, "stream_function"),
+                bed: false,
+                meshes: None,
+                yield_velocity: flow.tau_0 * flow.h / flow.eta,
+                bingham: "τ_0 H/(η U)",
             }),
             // The measures are those of a bed under two planes; sheet flow and grains have none of their own yet.
             Model::SheetFlow(_)
@@ -86,9 +141,10 @@ impl Focus {
         }
     }
 
-    /// The Bingham number on the mean velocity of `results`.
+    /// The Bingham number on the mean velocity of `results`, or the one that they have.
     pub fn bingham_number(&self, results: &Results) -> Option<f64> {
-        results.get(q::MEAN_VELOCITY.name).filter(|u| *u > 0.0).map(|u| self.yield_velocity / u)
+        let on_mean = results.get(q::MEAN_VELOCITY.name).filter(|u| *u > 0.0).map(|u| self.yield_velocity / u);
+        on_mean.or_else(|| results.get(q::BINGHAM.name))
     }
 
     /// Column of the error of the number.

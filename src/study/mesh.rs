@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use serde_json::{Map, json};
 
 use super::converge::{Reference, curve, error_text, line, range_text};
-use super::errors::{Focus, L2, RMS, RMS_PAPER, Truth, column};
+use super::errors::{Focus, L2, Meshes, RMS, RMS_PAPER, Truth, column};
 use super::orders::{ROUND_OFF, overall, slopes};
 use super::regularisation::exact_yield;
 use super::{Judgement, Point, Row};
@@ -17,9 +17,8 @@ use crate::result::{Profile, Quiet, Results, Status};
 
 /// What is varied.
 pub(super) const KEY: &str = "grid.cells";
-/// A multiple of 12, so that the cells of every layer double with the mesh.
-const COARSEST: usize = 24;
-const MESHES: u32 = 7;
+/// Levels of a closed form whose profile is not used.
+const LEVELS: usize = 24;
 const SERIES: [&str; 2] = ["node on the yield level", "no node there"];
 const REFERENCE: &str = "reference";
 
@@ -47,7 +46,7 @@ impl ClosedForm {
             Model::Bingham(RegularisedPlane { plane, .. }) => (Model::BinghamPlane(*plane), exact_plane(plane)?),
             _ => return None,
         };
-        let outcome = crate::run(&Problem { model, cells: COARSEST, ..problem.clone() }, &mut Quiet).ok()?;
+        let outcome = crate::run(&Problem { model, cells: LEVELS, ..problem.clone() }, &mut Quiet).ok()?;
         Some(Self { velocity, results: outcome.results })
     }
 
@@ -76,9 +75,10 @@ fn exact_plane(plane: &BinghamPlane) -> Option<Velocity> {
     bingham::Solution::new(plane, |_| {}).ok().map(Velocity::Plane)
 }
 
-pub(super) fn points(reference: Reference) -> Vec<Point> {
+pub(super) fn points(reference: Reference, meshes: Meshes) -> Vec<Point> {
+    let Meshes { coarsest, count, node: key } = meshes;
     let point = |series: &str, cells: usize, node: bool| {
-        let grid = [format!("{KEY}={cells}"), format!("grid.yield_node={node}")];
+        let grid = [format!("{KEY}={cells}"), format!("{key}={node}")];
         Point {
             series: series.into(),
             values: vec![cells.to_string()],
@@ -87,10 +87,10 @@ pub(super) fn points(reference: Reference) -> Vec<Point> {
     };
     let mut points = Vec::new();
     if reference == Reference::Finest {
-        points.push(point(REFERENCE, COARSEST << MESHES, true));
+        points.push(point(REFERENCE, coarsest << count, true));
     }
     for (series, node) in SERIES.into_iter().zip([true, false]) {
-        points.extend((0..MESHES).map(|i| point(series, COARSEST << i, node)));
+        points.extend((0..count).map(|i| point(series, coarsest << i, node)));
     }
     points
 }
@@ -173,6 +173,8 @@ fn text(errors: &[Option<f64>], cells: &[f64], orders: &[Option<f64>]) -> String
 }
 
 fn figure(focus: &Focus, rows: &[Row], measures: &[(String, Vec<Option<f64>>)]) -> Figure {
+    let all = rows.iter().filter(|row| row.point.series != REFERENCE).map(cells);
+    let (fewest, most) = all.fold((f64::INFINITY, 0.0_f64), |(a, b), n| (a.min(n), b.max(n)));
     let panel = |name: &str, named: bool| {
         let errors = column(measures, name);
         let at = |i: usize| errors.get(i).copied().flatten().filter(|e| *e > 0.0);
@@ -183,12 +185,12 @@ fn figure(focus: &Focus, rows: &[Row], measures: &[(String, Vec<Option<f64>>)]) 
         }
         let largest = (0..rows.len()).filter_map(at).fold(0.0, f64::max);
         if largest > ROUND_OFF {
-            let (a, b) = (COARSEST as f64, (COARSEST << (MESHES - 1)) as f64);
+            let (a, b) = (fewest, most);
             let guide = vec![(a, 2.0 * largest), (b, 2.0 * largest * (a / b).powi(2))];
             curves.push(line(if named { "order 2".into() } else { String::new() }, 3, Dash::Dotted, guide));
         }
         // Ends between two decades: no number stands where the next panel begins.
-        Panel { x: Axis { ends: Some((18.0, 2200.0)), ..Axis::log("cells", "1") }, curves }
+        Panel { x: Axis { ends: Some((0.75 * fewest, 1.4 * most)), ..Axis::log("cells", "1") }, curves }
     };
     Figure {
         stem: "convergence".into(),

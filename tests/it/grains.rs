@@ -242,5 +242,5 @@ fn pictures_for_paraview_are_whole_xml_with_a_point_a_grain() {
         assert_eq!(numbers.len(), components * points, "{name}");
     }
     let page = scratch.read("out/report.html");
-    assert!(page.contains("<figure id=\"grains\">") && page.contains("<circle"), "the report shows the grains");
+    assert!(page.contains("<figure id=\"picture\">") && page.contains("<circle"), "the report shows the grains");
 }

@@ -133,7 +133,9 @@ fn hold(tally: &Tally, Input { text, overrides }: &Input) -> Result<(), TestCase
         require!(!bedload::equations(&problem).contains("NaN"), "NaN in the equations");
         return Ok(());
     }
-    problem.cells = problem.cells.min(64);
+    // A section has the square of that.
+    let section = matches!(problem.model, Model::Duct(_) | Model::Cavity(_));
+    problem.cells = problem.cells.min(if section { 12 } else { 64 });
     match bedload::run(&problem, &mut Quiet) {
         Ok(outcome) => {
             count(&tally.solved);

@@ -105,11 +105,10 @@ fn the_stress_of_a_contact_is_its_force_along_its_branch() {
 
 #[test]
 fn a_second_touch_knows_nothing_of_the_first() {
-    let spinning = |z: f64| Grain { spin: [0.0, 40.0, 0.0], ..grain([0.0, 0.0, z], [0.05, 0.0, 0.0]) };
+    // So slow along the wall that the contact sticks: where it slips, the spring forgets by itself.
+    let slow = |z: f64| grain([0.0, 0.0, z], [2e-3, 0.0, 0.0]);
     let below = Grain { fixed: true, ..grain([0.0; 3], [0.0; 3]) };
-    for (domain, grains) in
-        [(floor(), vec![spinning(R + 1e-5)]), (Domain::default(), vec![below, spinning(2.0 * R + 1e-5)])]
-    {
+    for (domain, grains) in [(floor(), vec![slow(R + 1e-5)]), (Domain::default(), vec![below, slow(2.0 * R + 1e-5)])] {
         let start = |grains: &[Grain]| engine(grains, domain.clone(), law(1.0, Tension::Cut), 1e-5, [0.0, 0.0, -G]);
         let mut whole = start(&grains);
         let touching = |e: &Engine<_>| e.found().contacts + e.found().wall_contacts > 0;

@@ -1,0 +1,59 @@
+//! The fields of a section as files: for ParaView, and as the table from which the report draws them.
+
+use std::fmt::Write;
+
+/// Fields on a grid of nodes, `across` by `up`, node rows one after the other.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// nodes in a row
+    pub across: usize,
+    /// rows
+    pub up: usize,
+    /// positions (y, z) [m]
+    pub places: Vec<(f64, f64)>,
+    /// columns with their names
+    pub columns: Vec<(&'static str, Vec<f64>)>,
+}
+
+impl Field {
+    /// The table: place on the grid, place in the section, fields.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut text = String::from("column,row,y_m,z_m");
+        for (name, _) in &self.columns {
+            let _ = write!(text, ",{name}");
+        }
+        text.push('\n');
+        for (node, (y, z)) in self.places.iter().enumerate() {
+            let _ = write!(text, "{},{},{y:e},{z:e}", node % self.across, node / self.across);
+            for (_, values) in &self.columns {
+                let _ = write!(text, ",{:e}", values[node]);
+            }
+            text.push('\n');
+        }
+        text
+    }
+
+    /// The fields as a VTK structured grid in text, with x along the flow.
+    #[must_use]
+    pub fn vts(&self) -> String {
+        let extent = format!("0 0 0 {} 0 {}", self.across - 1, self.up - 1);
+        let mut text = format!(
+            "<?xml version=\"1.0\"?>\n<VTKFile type=\"StructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n\
+             <StructuredGrid WholeExtent=\"{extent}\">\n<Piece Extent=\"{extent}\">\n<Points>\n\
+             <DataArray type=\"Float64\" Name=\"position_m\" NumberOfComponents=\"3\" format=\"ascii\">\n"
+        );
+        for (y, z) in &self.places {
+            let _ = writeln!(text, "0 {y:e} {z:e}");
+        }
+        text += "</DataArray>\n</Points>\n<PointData>\n";
+        for (name, values) in &self.columns {
+            let _ = writeln!(text, "<DataArray type=\"Float64\" Name=\"{name}\" format=\"ascii\">");
+            for value in values {
+                let _ = writeln!(text, "{value:e}");
+            }
+            text += "</DataArray>\n";
+        }
+        text + "</PointData>\n</Piece>\n</StructuredGrid>\n</VTKFile>\n"
+    }
+}

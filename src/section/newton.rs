@@ -1,0 +1,196 @@
+//! Newton's method with the stress as an extra unknown: exact yield, and every regularisation.
+//!
+//! A regularised point carries `q = g/m(|g|)`, that is `m q = g`. Linearised in `g` and `q` (Chan, Golub & Mulet 1999, SIAM J.
+//! Sci. Comput. 20, 1964-1977) and eliminated in the point,
+//!
+//! ```text
+//! q + dq = (g + dg)/m - (m'/m) sym(q n) dg,   n = g/|g|,   sym(q n) = (q n + n q)/2
+//! (K + sum B t (1 - m' sym(q n))/m B) dx = b - K x - sum B t g/m
+//! ```
+//!
+//! With `|q| <= 1`, to which `q` is scaled back in each point, the matrix is symmetric positive definite, its pattern fixed.
+//! Linearised as a function of `g` alone, Newton's method stalls for small lambda.
+//!
+//! The **exact yield** is the limit of `m = sqrt(|g|^2 + lambda^2)` for falling lambda: a step at each, until neither the
+//! velocity nor the minimum changes any more.
+
+use std::ops::ControlFlow;
+
+use super::programme::{Programme, length};
+use crate::closures::regularisation::{Regularisation, Smoothing};
+use crate::numerics::sparse::{Cholesky, NotPositive};
+
+/// A solved programme.
+#[derive(Clone, Debug)]
+pub struct Solved<const D: usize> {
+    /// unknowns
+    pub x: Vec<f64>,
+    /// rate of strain in the points
+    pub g: Vec<[f64; D]>,
+    /// stress in the points over the yield stress
+    pub q: Vec<[f64; D]>,
+    /// relative change of the unknowns, one per iteration
+    pub history: Vec<f64>,
+    /// duality gap over the work of the drive
+    pub gap: f64,
+    /// sum of the forces that are not balanced over that of the drive
+    pub imbalance: f64,
+    /// the last lambda
+    pub lambda: f64,
+}
+
+/// Why there is no solution.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Stalled {
+    /// not converged
+    #[error("the velocity changes by {change:.3e} after {iterations} iterations at lambda = {lambda:.3e}")]
+    Unsettled {
+        /// relative change
+        change: f64,
+        /// iterations made
+        iterations: usize,
+        /// smoothing, in the unit of the shear rate
+        lambda: f64,
+    },
+    /// the user asked to stop
+    #[error("stopped")]
+    Stopped,
+    /// no factor
+    #[error(transparent)]
+    Matrix(#[from] NotPositive),
+}
+
+/// Most iterations.
+const MOST: usize = 300;
+/// Relative change of the unknowns that counts as none.
+const SETTLED: f64 = 1e-11;
+/// Last lambda of the exact yield over the largest shear rate of the Newtonian flow.
+const RIGID: f64 = 1e-10;
+/// Unknowns over those of the Newtonian flow below which nothing moves.
+const STILL: f64 = 1e-6;
+/// Fall of lambda from one step of the exact yield to the next.
+const FALL: f64 = 0.2;
+
+/// State of the iteration.
+struct Iterate<'a, const D: usize, const N: usize> {
+    programme: &'a Programme<D, N>,
+    cholesky: Cholesky,
+    values: Vec<f64>,
+    /// size of the unknowns that counts as none
+    still: f64,
+    x: Vec<f64>,
+    g: Vec<[f64; D]>,
+    q: Vec<[f64; D]>,
+}
+
+/// Solves a programme with a law of regularisation, or with the exact yield.
+///
+/// # Errors
+/// [`Stalled`].
+pub fn solve<const D: usize, const N: usize>(
+    programme: &Programme<D, N>,
+    law: &Regularisation,
+    see: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Solved<D>, Stalled> {
+    let mut cholesky = Cholesky::new(&programme.pattern, programme.order.as_deref())?;
+    cholesky.factorise(&programme.base)?;
+    let mut x = programme.load.clone();
+    cholesky.solve(&mut x);
+    let points = programme.points.len();
+    let mut g = vec![[0.0; D]; points];
+    programme.strains(&x, &mut g);
+    let scale = g.iter().map(length).fold(0.0, f64::max);
+    let values = programme.base.clone();
+    let still = STILL * x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    let mut iterate = Iterate { programme, cholesky, values, still, x, g, q: vec![[0.0; D]; points] };
+    let mut history = Vec::new();
+    let exact = law.is_exact();
+    let floor = if exact { RIGID * scale } else { law.lambda };
+    let mut lambda = if exact { 0.1 * scale } else { law.lambda.max(scale) };
+    let mut lawful = if exact { Regularisation { law: Smoothing::BercovierEngelman, lambda } } else { *law };
+    let mut settled = points == 0;
+    for _ in 0..MOST {
+        if settled {
+            break;
+        }
+        lawful.lambda = lambda;
+        let change = iterate.step(&lawful)?;
+        history.push(change);
+        if see(change).is_break() {
+            return Err(Stalled::Stopped);
+        }
+        if !change.is_finite() {
+            break;
+        }
+        let last = lambda <= floor;
+        settled = change < SETTLED && last;
+        if !last && change < 0.3 {
+            lambda = (FALL * lambda).max(floor);
+        }
+    }
+    if !settled {
+        let change = history.last().copied().unwrap_or(f64::INFINITY);
+        return Err(Stalled::Unsettled { change, iterations: history.len(), lambda });
+    }
+    let Iterate { x, g, q, .. } = iterate;
+    let work: f64 = x.iter().zip(&programme.load).map(|(x, b)| x * b).sum();
+    let size = |forces: &[f64]| forces.iter().map(|r| r.abs()).sum::<f64>();
+    let imbalance = size(&programme.imbalance(&x, &q)) / size(&programme.load);
+    let gap = programme.gap(&g, &q) / work.abs().max(f64::MIN_POSITIVE);
+    Ok(Solved { x, g, q, history, gap, imbalance, lambda })
+}
+
+impl<const D: usize, const N: usize> Iterate<'_, D, N> {
+    /// One step; the relative change of the unknowns.
+    fn step(&mut self, law: &Regularisation) -> Result<f64, Stalled> {
+        let Self { programme, cholesky, values, still, x, g, q } = self;
+        values.copy_from_slice(&programme.base);
+        let per_block = programme.per_block;
+        for ((block, points), (g, q)) in programme.each().zip(g.chunks(per_block).zip(q.chunks(per_block))) {
+            let mut local = [[0.0; N]; N];
+            for ((point, g), q) in points.iter().zip(g).zip(q) {
+                let stiff = tangent(law, g, q);
+                for (left, stiff) in point.strain.iter().zip(&stiff) {
+                    // One row of (1 - m' sym(q n))/m B at a time.
+                    let row: [f64; N] = std::array::from_fn(|j| {
+                        point.carried * stiff.iter().zip(&point.strain).map(|(s, b)| s * b[j]).sum::<f64>()
+                    });
+                    for (i, left) in left.iter().enumerate() {
+                        for j in 0..=i {
+                            local[i][j] += left * row[j];
+                        }
+                    }
+                }
+            }
+            block.add(&local, values);
+        }
+        cholesky.factorise(values)?;
+        let carried: Vec<[f64; D]> = g.iter().map(|g| g.map(|a| a / law.effective(length(g)).0)).collect();
+        let mut dx = programme.imbalance(x, &carried);
+        cholesky.solve(&mut dx);
+        let size = x.iter().zip(&dx).fold(*still, |m, (x, d)| m.max((x + d).abs()));
+        let change = dx.iter().fold(0.0_f64, |m, d| m.max(d.abs())) / size;
+        x.iter_mut().zip(&dx).for_each(|(x, d)| *x += d);
+        let mut news = vec![[0.0; D]; g.len()];
+        programme.strains(x, &mut news);
+        for ((g, q), new) in g.iter_mut().zip(q.iter_mut()).zip(news) {
+            let stiff = tangent(law, g, q);
+            let m = law.effective(length(g)).0;
+            let dg: [f64; D] = std::array::from_fn(|d| new[d] - g[d]);
+            let next: [f64; D] = std::array::from_fn(|a| g[a] / m + (0..D).map(|b| stiff[a][b] * dg[b]).sum::<f64>());
+            let size = length(&next).max(1.0);
+            (*q, *g) = (next.map(|a| a / size), new);
+        }
+        Ok(change)
+    }
+}
+
+/// `(1 - m' sym(q n))/m`.
+fn tangent<const D: usize>(law: &Regularisation, g: &[f64; D], q: &[f64; D]) -> [[f64; D]; D] {
+    let size = length(g);
+    let (m, slope) = law.effective(size);
+    let share = if size > 0.0 { 0.5 * slope / (m * size) } else { 0.0 };
+    std::array::from_fn(|a| {
+        std::array::from_fn(|b| f64::from(u8::from(a == b)) / m - share * (q[a] * g[b] + q[b] * g[a]))
+    })
+}

@@ -1,0 +1,278 @@
+//! Ducts in their cross-section, from outside: closed forms with the observed order, limits of flow and rest, agreement of
+//! the methods, and the plane flow that a wide section becomes.
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use bedload::case::Case;
+use bedload::problem::{Method, Outline, Problem, Regularisation, SectionMethod, Smoothing};
+use bedload::result::{Outcome, Quiet};
+use bedload::section::duct::{Divided, Duct, Filling};
+use bedload::section::element::points;
+use bedload::section::solve::Solution;
+use bedload::section::{dual, newton};
+
+const SQUARE: Outline = Outline::Rectangle { width: 1.0 };
+const HOW: SectionMethod =
+    SectionMethod { method: Method::Newton, yield_row: true, finest: 1.0, tolerance: 1e-8, iterations: 20_000 };
+
+fn bingham(shape: Outline, y: f64) -> Duct {
+    Duct { shape, filling: Filling::Bingham(y), f: 1.0 }
+}
+
+/// The bed of the shipped cases: phi 0.55, mu_s 0.43, f 0.1, H/d 30.
+fn bed(shape: Outline, slips: bool) -> Duct {
+    let k = 0.45_f64.powi(3) / (900.0 * 180.0 * 0.55 * 0.55);
+    Duct { shape, filling: Filling::Bed { level: 0.5, e: 2.375, hold: 0.43 * 0.55, k: slips.then_some(k) }, f: 0.1 }
+}
+
+fn solve(duct: &Duct, rows: usize, law: &Regularisation, how: &SectionMethod) -> Solution {
+    duct.solve(rows, law, how, &mut |_, _| ControlFlow::Continue(())).unwrap()
+}
+
+fn exact(duct: &Duct, rows: usize) -> Solution {
+    solve(duct, rows, &Regularisation::EXACT, &HOW)
+}
+
+fn flow_rate(solution: &Solution) -> f64 {
+    let divided = &solution.divided;
+    divided.integral(&divided.velocity(&solution.solved.x), 0..divided.mesh.rows)
+}
+
+fn u_max(solution: &Solution) -> f64 {
+    solution.divided.velocity(&solution.solved.x).iter().fold(0.0, |m, u| m.max(*u))
+}
+
+fn run(case: &str, settings: &[&str]) -> Outcome {
+    let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
+    bedload::run(&Problem::new(&Case::load(case, &settings).unwrap()).unwrap(), &mut Quiet).unwrap()
+}
+
+/// L2 norms of the error of the velocity and of its gradient over half of the section.
+fn errors(divided: &Divided, x: &[f64], at: &dyn Fn(f64, f64) -> (f64, [f64; 2])) -> [f64; 2] {
+    let mesh = &divided.mesh;
+    let u = divided.velocity(x);
+    let mut squares = [0.0; 2];
+    for element in 0..mesh.elements() {
+        let nodes = mesh.element(element);
+        for point in points(mesh, element) {
+            let sum = |f: &[f64; 9], of: &dyn Fn(usize) -> f64| -> f64 { (0..9).map(|k| f[k] * of(nodes[k])).sum() };
+            let y = sum(&point.shape, &|n| mesh.position(n).0);
+            let (value, slope) = at(y, point.z);
+            squares[0] += point.weight * (sum(&point.shape, &|n| u[n]) - value).powi(2);
+            for d in 0..2 {
+                squares[1] += point.weight * (sum(&point.gradient[d], &|n| u[n]) - slope[d]).powi(2);
+            }
+        }
+    }
+    squares.map(f64::sqrt)
+}
+
+/// Newtonian flow in the square: Fourier series over the height.
+fn square(y: f64, z: f64) -> (f64, [f64; 2]) {
+    let (mut u, mut slope) = (0.5 * z * (1.0 - z), [0.0, 0.5 - z]);
+    for n in (1..400).step_by(2).map(f64::from) {
+        let k = n * PI;
+        // cosh(k y)/cosh(k/2), without overflow
+        let (a, b) = ((k * (y - 0.5)).exp(), (-k * (y + 0.5)).exp());
+        let (even, odd) = ((a + b) / (1.0 + (-k).exp()), (a - b) / (1.0 + (-k).exp()));
+        let size = 4.0 / k.powi(3);
+        u -= size * (k * z).sin() * even;
+        slope[0] -= size * k * (k * z).sin() * odd;
+        slope[1] -= size * k * (k * z).cos() * even;
+    }
+    (u, slope)
+}
+
+/// Newtonian flow in the circle of diameter 1.
+fn circle(y: f64, z: f64) -> (f64, [f64; 2]) {
+    let z = z - 0.5;
+    ((0.25 - y * y - z * z) / 4.0, [-0.5 * y, -0.5 * z])
+}
+
+#[test]
+fn the_velocity_of_a_newtonian_fluid_has_order_three_and_its_gradient_two() {
+    // In the corners of the square the velocity goes like r^2 ln r: a little less than the full order.
+    for (shape, at, less) in [(SQUARE, square as fn(f64, f64) -> _, 0.2), (Outline::Circle, circle, 0.1)] {
+        let on = |rows: usize| {
+            let solution = exact(&bingham(shape, 0.0), rows);
+            errors(&solution.divided, &solution.solved.x, &at)
+        };
+        let (coarse, fine) = (on(12), on(24));
+        let order = |d: usize| (coarse[d] / fine[d]).log2();
+        println!("{shape:?}: {coarse:?} {fine:?}, orders {} {}", order(0), order(1));
+        assert!((3.0 - less..4.1).contains(&order(0)), "{shape:?}: {}", order(0));
+        assert!((2.0 - less..3.1).contains(&order(1)), "{shape:?}: {}", order(1));
+    }
+}
+
+#[test]
+fn newtonian_flow_rates_and_largest_velocities() {
+    for (shape, rate, largest) in [(SQUARE, 0.035_144_25, 0.073_671_35), (Outline::Circle, PI / 128.0, 0.0625)] {
+        let solution = exact(&bingham(shape, 0.0), 32);
+        println!("{shape:?}: {:.8} {:.8}", flow_rate(&solution), u_max(&solution));
+        assert!((flow_rate(&solution) / rate - 1.0).abs() < 1e-5, "{shape:?}: {}", flow_rate(&solution));
+        assert!((u_max(&solution) / largest - 1.0).abs() < 1e-5, "{shape:?}: {}", u_max(&solution));
+    }
+}
+
+#[test]
+fn a_wall_on_every_side_and_none_on_the_symmetry_plane() {
+    for shape in [SQUARE, Outline::Circle] {
+        let solution = exact(&bingham(shape, 0.05), 16);
+        let mesh = &solution.divided.mesh;
+        let u = solution.divided.velocity(&solution.solved.x);
+        let (across, up) = mesh.lines();
+        for j in 0..up {
+            assert_eq!(u[mesh.node(across - 1, j)], 0.0);
+            assert!(j == 0 || j == up - 1 || u[mesh.node(0, j)] > 0.0, "{shape:?} row {j}");
+        }
+        assert!((0..across).all(|i| u[mesh.node(i, 0)] == 0.0 && u[mesh.node(i, up - 1)] == 0.0));
+    }
+}
+
+#[test]
+fn a_bingham_fluid_in_a_pipe_is_that_of_buckingham_and_reiner() {
+    let x = 0.4_f64;
+    let rate = PI / 128.0 * (1.0 - 4.0 * x / 3.0 + x.powi(4) / 3.0);
+    let error = |rows: usize| {
+        let solution = exact(&bingham(Outline::Circle, 0.1), rows);
+        let iterations = solution.solved.history.len();
+        println!("{rows}: {:.2e} in {iterations} iterations", flow_rate(&solution) / rate - 1.0);
+        assert!(iterations < 40);
+        (flow_rate(&solution) / rate - 1.0).abs()
+    };
+    assert!(error(16) < 1e-2);
+    assert!(error(48) < 1e-3);
+}
+
+#[test]
+fn a_square_duct_stops_at_the_critical_bingham_number() {
+    let critical = 1.0 / (2.0 + PI.sqrt());
+    let with = |share: f64| exact_graded(&bingham(SQUARE, share * critical), 48);
+    let newtonian = 0.035_144;
+    let (below, above) = (with(0.995), with(1.001));
+    println!("flow rate {:.2e} below, {:.2e} above", flow_rate(&below), flow_rate(&above));
+    assert!(flow_rate(&below) > 1e-5 * newtonian, "{}", flow_rate(&below));
+    assert!(flow_rate(&above) < 1e-7 * newtonian, "{}", flow_rate(&above));
+    // At the onset all but the rounded corners moves as one: 1 - (4 - pi)/(2 + sqrt(pi))^2 of the section.
+    let divided = &below.divided;
+    let u = divided.velocity(&below.solved.x);
+    let half = 0.5 * u_max(&below);
+    let mut moving = 0.0;
+    for element in 0..divided.mesh.elements() {
+        let nodes = divided.mesh.element(element);
+        for point in points(&divided.mesh, element) {
+            let here: f64 = point.shape.iter().zip(nodes).map(|(n, node)| n * u[node]).sum();
+            moving += if here > half { 2.0 * point.weight } else { 0.0 };
+        }
+    }
+    let onset = 1.0 - (4.0 - PI) * critical * critical;
+    println!("moving {moving:.4}, at the onset {onset:.5}");
+    assert!((moving / onset - 1.0).abs() < 0.015, "{moving}");
+}
+
+fn exact_graded(duct: &Duct, rows: usize) -> Solution {
+    solve(duct, rows, &Regularisation::EXACT, &SectionMethod { finest: 0.1, ..HOW })
+}
+
+#[test]
+fn every_regularisation_tends_to_the_exact_yield_and_creeps_before() {
+    let duct = bingham(SQUARE, 0.1);
+    let truth = exact(&duct, 16);
+    for law in [Smoothing::Simple, Smoothing::BercovierEngelman, Smoothing::Papanastasiou] {
+        let error = |lambda: f64| {
+            let solution = solve(&duct, 16, &Regularisation { law, lambda }, &HOW);
+            let worst = solution.solved.x.iter().zip(&truth.solved.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+            (worst / u_max(&truth), flow_rate(&solution) - flow_rate(&truth))
+        };
+        let (coarse, fine) = (error(1e-4), error(1e-6));
+        println!("{law:?}: {coarse:?} {fine:?}");
+        assert!(coarse.0 < 0.05 && fine.0 < 1e-3 && fine.0 > 1e-9, "{law:?}: {coarse:?} {fine:?}");
+        assert!(coarse.0 > 5.0 * fine.0);
+        assert!(coarse.1 > 0.0 && fine.1 > 0.0, "{law:?}: a material that creeps flows faster");
+    }
+    // Bercovier and Engelman's law is several times closer than the paper's.
+    let at = |law| {
+        let solution = solve(&duct, 16, &Regularisation { law, lambda: 1e-6 }, &HOW);
+        flow_rate(&solution) - flow_rate(&truth)
+    };
+    assert!(at(Smoothing::Simple) > 3.0 * at(Smoothing::BercovierEngelman));
+}
+
+#[test]
+fn the_first_order_method_agrees_within_its_duality_gap() {
+    // Grains without viscosity of their own, over a drag that is stiff, take many more iterations per digit.
+    for (duct, tolerance, digits) in
+        [(bingham(SQUARE, 0.1), 1e-7, 2e-5), (bed(SQUARE, false), 1e-7, 2e-5), (bed(Outline::Circle, true), 1e-5, 5e-3)]
+    {
+        let divided = duct.divide(8, 16, 1.0, None);
+        let go_on = &mut |_| ControlFlow::Continue(());
+        let newton = newton::solve(&divided.programme, &Regularisation::EXACT, go_on).unwrap();
+        let dual = dual::solve(&divided.programme, tolerance, 20_000, go_on).unwrap();
+        let largest = newton.x.iter().fold(0.0_f64, |m, x| m.max(*x));
+        let worst = newton.x.iter().zip(&dual.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest;
+        println!("{} iterations, {worst:.1e} of the largest velocity", dual.history.len());
+        assert!(worst < digits, "{worst}");
+        // Both values of the convex minimum, and the dual between them.
+        let mut g = vec![[0.0; 2]; divided.programme.points.len()];
+        divided.programme.strains(&dual.x, &mut g);
+        let (a, b) = (divided.programme.value(&newton.x, &newton.g), divided.programme.value(&dual.x, &g));
+        assert!(a <= b + 1e-12 * b.abs(), "Newton's method is above: {a} {b}");
+        let work: f64 = dual.x.iter().zip(&divided.programme.load).map(|(x, b)| x * b).sum();
+        assert!(b - a <= 1.01 * tolerance * work, "{a} {b}");
+    }
+}
+
+#[test]
+fn planes_are_the_closed_form_of_the_plane_bed() {
+    // Yield levels evaluated independently with 40 digits, as in the cases exact_1d_ouriemi and its mixed form.
+    for (slips, level, digits) in [(false, 0.329_141_454_354_9, 2e-9), (true, 0.331_246_968_0, 2e-5)] {
+        let solution = exact(&bed(Outline::Planes, slips), 48);
+        let line = solution.line.as_ref().unwrap();
+        println!("{slips}: {:.10}", line[0]);
+        assert!((line[0] - level).abs() < digits, "{slips}: {} {level}", line[0]);
+    }
+}
+
+#[test]
+fn a_wide_duct_over_a_bed_is_the_plane_flow_in_its_middle() {
+    let plane = exact(&bed(Outline::Planes, false), 24);
+    let at = |width: f64| {
+        let wide = exact(&bed(Outline::Rectangle { width }, false), 24);
+        (u_max(&wide) / u_max(&plane) - 1.0).abs()
+    };
+    let (narrow, wide) = (at(2.0), at(8.0));
+    println!("{narrow:.1e} {wide:.1e}");
+    assert!(wide < 1e-6 && narrow > 1e-3, "{narrow} {wide}");
+}
+
+#[test]
+fn iterations_hardly_depend_on_the_mesh() {
+    let counts = |duct: &Duct| {
+        let on = |rows: usize| {
+            let divided = duct.divide(rows / 2, rows, 1.0, None);
+            let solved = newton::solve(&divided.programme, &Regularisation::EXACT, &mut |_| ControlFlow::Continue(()));
+            solved.unwrap().history.len()
+        };
+        [on(12), on(24), on(48)]
+    };
+    for duct in [bingham(SQUARE, 0.1), bed(SQUARE, false), bed(SQUARE, true)] {
+        let counts = counts(&duct);
+        println!("{counts:?}");
+        assert!(counts.iter().all(|n| (10..32).contains(n)), "{counts:?}");
+    }
+}
+
+#[test]
+fn a_bed_at_rest_and_one_that_moves_to_its_bottom() {
+    let outcome = run("section_2d_square_bed", &["flow.pressure_gradient=14000", "grid.cells=16"]);
+    let depth = outcome.results.get("mobile_depth_m").unwrap();
+    assert!(depth > 0.014, "{depth}");
+    let outcome = run(
+        "section_2d_square_bed",
+        &["flow.pressure_gradient=0.1", "model.form=two-fluid", "closures.drag.law=carman-kozeny", "grid.cells=16"],
+    );
+    assert!(outcome.results.get("bed_flux_m3_s").unwrap() < 1e-9 * outcome.results.get("flow_rate_m3_s").unwrap());
+    assert_eq!(outcome.results.get("mobile_depth_m"), Some(0.0));
+}
