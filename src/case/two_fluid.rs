@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::tables::{SlopeDefinition, one_of};
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::GrainDrag;
+use crate::closures::kinetic::radial::PHI_MAX;
 use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
 use crate::closures::mixing_length::MixingLength;
 
@@ -42,7 +43,7 @@ pub struct TwoFluidBed {
 }
 
 fn phi_max() -> f64 {
-    0.635
+    PHI_MAX
 }
 
 /// A flow down a slope under a free surface. Exactly one of depth and shields.
@@ -226,10 +227,15 @@ impl Default for TwoFluidSolver {
 /// Cells of the column.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TwoFluidGrid {
-    /// Number of cells, of equal height.
+    /// Number of cells.
     #[serde(default = "cells")]
     #[schemars(extend("minimum" = 20, "maximum" = 100_000))]
     pub cells: usize,
+    /// Distance from the level of the grains at rest within which cells stay fine: their heights grow with the distance z
+    /// from it like (1 + (z/fine)^2)^(1/2). Without, all have the same height.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub fine: Option<f64>,
 }
 
 fn cells() -> usize {
@@ -238,6 +244,6 @@ fn cells() -> usize {
 
 impl Default for TwoFluidGrid {
     fn default() -> Self {
-        Self { cells: cells() }
+        Self { cells: cells(), fine: None }
     }
 }

@@ -3,12 +3,15 @@
 
 use super::profile::sentence;
 use super::{Axis, Curve, Dash, Figure, Panel};
+use crate::closures::kinetic::Inertial;
 use crate::result::quantity::{self, Quantity};
 use crate::result::{Profile, Summary};
 use crate::units::readable_unit;
 
 /// Inertial numbers that are drawn.
 const DRAWN: (f64, f64) = (1e-4, 1e2);
+/// Solid fraction at rest of phi(I): Maurin, Chauchat & Frey (2016).
+pub(super) const PHI_C: f64 = 0.61;
 /// Solid fraction above which grains are drawn in the plane of the inertial number.
 const ENOUGH: f64 = 1e-3;
 
@@ -19,7 +22,10 @@ pub(super) fn kinetic_figures(profile: &Profile, summary: &Summary) -> Vec<Figur
         return Vec::new();
     }
     let mut figures = vec![scene.fluctuations(&summary.case)];
-    figures.extend(scene.rheology(&summary.case));
+    // Grains with error bars have a figure of their own.
+    if profile.get(&quantity::P_PARTICLE_STDERR).is_none() {
+        figures.extend(scene.rheology(&summary.case));
+    }
     figures
 }
 
@@ -35,6 +41,13 @@ impl Scene<'_> {
 
     fn largest(&self, quantity: &Quantity) -> f64 {
         self.profile.range(quantity).map_or(0.0, |(low, high)| high.abs().max(low.abs()))
+    }
+
+    /// Standard errors of a column; none where it has none.
+    fn errors(&self, quantity: &Quantity) -> impl Iterator<Item = Option<f64>> {
+        let name = format!("{}_stderr", quantity.name);
+        let column = quantity::find(quantity::COLUMNS, &name).and_then(|error| self.profile.get(error));
+        column.into_iter().flatten().copied()
     }
 
     fn curve(name: &str, (colour, dash): (usize, Dash), points: Vec<Option<(f64, f64)>>) -> Curve {
@@ -55,7 +68,8 @@ impl Scene<'_> {
             let curves = lines
                 .iter()
                 .map(|(name, colour, dash, quantity, sign)| {
-                    Self::curve(name, (*colour, *dash), over(quantity, scale, *sign))
+                    let errors = self.errors(quantity).map(|error| error.map(|error| error * scale)).collect();
+                    Curve { errors, ..Self::curve(name, (*colour, *dash), over(quantity, scale, *sign)) }
                 })
                 .collect();
             Panel { x: Axis::linear(title, symbol), curves }
@@ -93,20 +107,24 @@ impl Scene<'_> {
         };
         let friction = |row: usize| Some(self.at(&quantity::TAU_PARTICLE, row)? / self.at(&quantity::P_PARTICLE, row)?);
         let phi = |row: usize| self.at(&quantity::PHI, row);
-        let figure = |stem: &str, title: &str, value: &dyn Fn(usize) -> Option<f64>| Figure {
+        let dense = Inertial::default();
+        let figure = |stem: &str, title: &str, value: &dyn Fn(usize) -> Option<f64>, law: (&str, &dyn Fn(f64) -> f64)| Figure {
             stem: stem.into(),
             caption: format!("{case}: {title} over the inertial number."),
             y: Axis::linear(title, ""),
             panels: vec![Panel {
                 x: Axis::log("inertial number I", ""),
-                curves: vec![Self::curve("", (2, Dash::Solid), over(value))],
+                curves: vec![
+                    Self::curve("here", (2, Dash::Solid), over(value)),
+                    Self::curve(law.0, (0, Dash::DashDotted), over(&|row| Some(law.1(self.at(&quantity::INERTIAL_NUMBER, row)?)))),
+                ],
             }],
             levels: Vec::new(),
             tint_below: None,
         };
         vec![
-            figure("friction_inertial", "friction τₚ/Pₚ", &friction),
-            figure("fraction_inertial", "solid fraction φ", &phi),
+            figure("friction_inertial", "friction τₚ/Pₚ", &friction, ("μ(I)", &|i| dense.mu(i))),
+            figure("fraction_inertial", "solid fraction φ", &phi, ("φ(I)", &|i| PHI_C / (1.0 + dense.b * i))),
         ]
     }
 }

@@ -61,6 +61,8 @@ pub struct TwoFluid {
     pub rate_floor: f64,
     /// solid fraction below which grains have no weight
     pub phi_floor: f64,
+    /// distance from the level of the grains at rest within which cells stay fine [m]; all of the same height without
+    pub fine: Option<f64>,
     /// amplitude [Pa/m] and period [s] of a pressure gradient that goes to and fro
     pub oscillation: Option<(f64, f64)>,
     /// simulated time [s], error of a step, and number of samples
@@ -172,6 +174,7 @@ pub(super) fn two_fluid(scene: &Scene, model: &str, faults: &mut Faults) -> Opti
         temperature_floor: regularisation.granular_temperature,
         rate_floor: regularisation.shear_rate,
         phi_floor: regularisation.phi,
+        fine: scene.grid.fine,
         oscillation: flow.oscillation.map(|waves| (waves.amplitude, waves.period)),
         pace: (solver.duration, solver.tolerance, solver.samples),
     })

@@ -53,7 +53,14 @@ catalogue! {
     DIFFUSION = "fluctuation_diffusion_W_m3", "diffusion of fluctuation energy", "-dq/dz", "W/m³", "what the flux of fluctuation energy brings";
     CONTACT_LOSS = "fluctuation_contact_loss_W_m3", "loss of fluctuation energy by contacts", "-Γ", "W/m³", "what contacts dissipate, positive";
     DRAG_LOSS = "fluctuation_drag_loss_W_m3", "loss of fluctuation energy by drag", "-J", "W/m³", "what the drag takes from the velocity fluctuations, positive";
+    CONTACT_LOSS_DIRECT = "fluctuation_contact_loss_direct_W_m3", "power that contacts take", "Σ f·Δv/2V", "W/m³", "work of contact forces on the centres of the grains, taken where the grains are, positive; the loss by contacts is what the budget leaves";
+    FLUCTUATION_FLUX = "fluctuation_flux_W_m2", "flux of fluctuation energy", "q", "W/m²", "upward";
     GRANULAR_TEMPERATURE = "granular_temperature_m2_s2", "granular temperature", "T", "m²/s²", "a third of the mean square of the grain velocity about its mean in the slice";
+    PRODUCTION_STDERR = "fluctuation_production_W_m3_stderr", "standard error of the production", "σ(τ_p du_p/dz)", "W/m³", "by block averaging";
+    FLUCTUATION_FLUX_STDERR = "fluctuation_flux_W_m2_stderr", "standard error of the flux of fluctuation energy", "σ(q)", "W/m²", "by block averaging";
+    CONTACT_LOSS_STDERR = "fluctuation_contact_loss_W_m3_stderr", "standard error of the loss by contacts", "σ(Γ)", "W/m³", "by block averaging";
+    DRAG_LOSS_STDERR = "fluctuation_drag_loss_W_m3_stderr", "standard error of the loss by drag", "σ(J)", "W/m³", "by block averaging";
+    RADIAL_STDERR = "radial_distribution_stderr", "standard error of the radial distribution function", "σ(g₀)", "1", "by block averaging";
     U_FLUID_STDERR = "u_fluid_m_s_stderr", "standard error of the fluid velocity", "σ(u_f)", "m/s", "by block averaging";
     TAU_REYNOLDS_STDERR = "tau_reynolds_Pa_stderr", "standard error of the Reynolds stress", "σ(R_xz)", "Pa", "by block averaging";
     PHI_STDERR = "phi_stderr", "standard error of the solid fraction", "σ(φ)", "1", "by block averaging";
@@ -202,7 +209,7 @@ catalogue! {
     SOLIDS_DRIFT = "solids_drift", "drift of the solid volume", "max |ΔV|/V", "1", "largest deviation of the solid volume from that at rest at any step, relative to it";
     STEPS = "time_steps", "time steps", "N", "1", "steps kept";
     STEPS_REFUSED = "time_steps_refused", "time steps refused", "N_0", "1", "steps taken again, shorter";
-    ITERATIONS = "newton_iterations", "Newton iterations", "N_N", "1", "linear systems solved, of all stages";
+    NEWTON_ITERATIONS = "newton_iterations", "Newton iterations", "N_N", "1", "linear systems solved, of all stages";
     SOLID_VOLUME = "solid_volume_m", "solid volume", "V", "m", "integral of φ over z";
     SEEPAGE = "seepage_velocity_m_s", "seepage velocity", "u_f(0)", "m/s", "velocity of the fluid through the lowest cell of the bed";
     UNLIMITED = "unlimited_from_phi", "solid fraction from which saltation limits nothing", "φ_0", "1", "lowest solid fraction of the flow at which a kinetic part of the theory is not positive";

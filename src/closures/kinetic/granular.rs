@@ -136,6 +136,28 @@ impl Granular {
     }
 }
 
+impl Default for GarzoDufty {
+    /// As published.
+    fn default() -> Self {
+        Self { radial: smooth() }
+    }
+}
+
+impl Default for FrictionalCollisional {
+    /// As published.
+    fn default() -> Self {
+        Self {
+            radial: frictional(),
+            dissipation: jenkins_zhang(),
+            e_t: 0.0,
+            saltation: Limit::default(),
+            c_0: c_0(),
+            sigma: sigma(),
+            drag_work: quadratic(),
+        }
+    }
+}
+
 impl GarzoDufty {
     /// The theory of grains with the restitution `e`; the friction `mu_p` counts in the frictional `g_0` alone.
     #[must_use]
@@ -246,6 +268,12 @@ mod tests {
         let classical = classical().kinetic(0.7, 0.4);
         assert_eq!(changed.kinetic(0.7, 0.4), classical);
         assert_ne!(proposed("").kinetic(0.7, 0.4), classical);
+    }
+
+    #[test]
+    fn defaults_of_the_case_file_are_those_of_the_program() {
+        assert_eq!(proposed(""), FrictionalCollisional::default());
+        assert_eq!(classical(), GarzoDufty::default());
     }
 
     #[test]

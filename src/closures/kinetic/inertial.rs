@@ -68,6 +68,13 @@ fn slope() -> f64 {
     0.31
 }
 
+impl Default for Inertial {
+    /// As published for bedload.
+    fn default() -> Self {
+        Self { mu_s: mu_s(), mu_2: mu_2(), i_0: i_0(), b: slope() }
+    }
+}
+
 impl Inertial {
     /// `(b phi/(phi_max - phi))^2/phi`, at the distance `gap` > 0 of `phi` to phi_max.
     #[must_use]

@@ -29,7 +29,9 @@ const DELTA: f64 = 0.54;
 /// Solid fraction at which hard spheres freeze.
 const FREEZING: f64 = 0.49;
 
-const DENSE: Range = Range { variable: "phi", min: 0.0, max: 0.635 };
+/// Solid fraction at which `g_0` diverges, of spheres packed at random.
+pub const PHI_MAX: f64 = 0.635;
+const DENSE: Range = Range { variable: "phi", min: 0.0, max: PHI_MAX };
 
 /// Catalogue entries.
 pub static CARNAHAN_STARLING: Info = Info {

@@ -49,11 +49,11 @@ impl Mobilised {
         (value, (1.0 - self.0 * value) / size)
     }
 
-    /// After a step from the shear rate `from` to `to`.
+    /// After a `change` of the shear rate `from`.
     #[must_use]
-    pub fn after(self, from: f64, to: f64, rate: f64) -> Self {
+    pub fn after(self, from: f64, change: f64, rate: f64) -> Self {
         let (value, slope) = self.law(from, rate);
-        Self((value + slope * (to - from)).clamp(-1.0, 1.0))
+        Self((value + slope * change).clamp(-1.0, 1.0))
     }
 }
 
@@ -89,6 +89,9 @@ pub struct Setting<'a> {
     pub laws: &'a Laws,
     /// factor of the new value in the time derivative; 0 where the flow is steady
     pub rate: f64,
+    /// whether enduring contacts have the friction that is mobilised, or that of the law: the same in the end, but at rest
+    /// only the first says how much
+    pub held: bool,
 }
 
 /// `x/(e^x - 1)`.
@@ -146,7 +149,7 @@ impl Setting<'_> {
         let (k, _) = laws.drag.per_volume(phi, (slip * slip + up * up).sqrt(), laws.drag.viscous(laws.nu, 1.0));
 
         let shear = (upper.v - lower.v) / dz;
-        let (kinetic, flux) = self.moving(phi, gap, k, shear, lower, upper, dz);
+        let (kinetic, flux) = self.moving((phi, gap), (k, shear, r), lower, upper, dz);
         let contact = self.contact((lower.elastic + upper.elastic) * 0.5, shear, r);
 
         // Grains are those of the cell that they leave.
@@ -209,8 +212,14 @@ impl Setting<'_> {
     }
 
     /// Stress of moving grains, and flux of their fluctuation energy upward.
-    #[allow(clippy::too_many_arguments, reason = "the state of a face")]
-    fn moving<T: Real>(&self, phi: T, gap: T, k: T, shear: T, lower: &Cell<T>, upper: &Cell<T>, dz: f64) -> (T, T) {
+    fn moving<T: Real>(
+        &self,
+        (phi, gap): (T, T),
+        (k, shear, r): (T, T, Mobilised),
+        lower: &Cell<T>,
+        upper: &Cell<T>,
+        dz: f64,
+    ) -> (T, T) {
         let ratio = self.laws.ratio;
         match self.laws.moving {
             Moving::Kinetic(law) => {
@@ -222,18 +231,21 @@ impl Setting<'_> {
                 let p = (lower.kinetic + lower.elastic + upper.kinetic + upper.elastic) * 0.5;
                 let size = (shear * shear + self.laws.floors.rate * self.laws.floors.rate).sqrt();
                 let inertial = size * (T::constant(ratio) / p).sqrt();
-                (law.mu(inertial) * p * shear / size, T::constant(0.0))
+                (law.mu(inertial) * p * self.direction(shear, r), T::constant(0.0))
             }
         }
+    }
+
+    /// `gamma/(gamma^2 + lambda^2)^(1/2)` with the slope of the iteration.
+    fn direction<T: Real>(&self, shear: T, r: Mobilised) -> T {
+        let (value, slope) = r.law(shear.value(), self.laws.floors.rate);
+        shear.chain(if self.held { r.0 } else { value }, slope)
     }
 
     /// Stress of enduring contacts under the elastic pressure `p`.
     fn contact<T: Real>(&self, p: T, shear: T, r: Mobilised) -> T {
         match self.laws.moving {
-            Moving::Kinetic(_) if p.value() > 0.0 => {
-                let (value, slope) = r.law(shear.value(), self.laws.floors.rate);
-                p * shear.chain(value, slope) * self.laws.mu_s
-            }
+            Moving::Kinetic(_) if p.value() > 0.0 => p * self.direction(shear, r) * self.laws.mu_s,
             _ => T::constant(0.0),
         }
     }
@@ -247,7 +259,7 @@ impl Setting<'_> {
         let slip = cell.u - cell.v;
         let (k, _) = laws.drag.per_volume(cell.phi, slip.abs(), laws.drag.viscous(laws.nu, 1.0));
         let shear = cell.v / half;
-        let (kinetic, _) = self.moving(cell.phi, cell.gap, k, shear, cell, cell, half);
+        let (kinetic, _) = self.moving((cell.phi, cell.gap), (k, shear, r), cell, cell, half);
         let contact = self.contact(cell.elastic, shear, r);
         let mut above = [zero; SIZE];
         above[LOGIT] = T::constant(volume);

@@ -61,7 +61,7 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
                 break 'time;
             }
         }
-        let levels = Levels::new(&march.column, &march.state);
+        let levels = Levels::new(&march.column, &march.state, &march.mobilised);
         samples.push(Sample {
             time: march.time,
             rate: moved / (march.time - start),
@@ -81,7 +81,7 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
 
 fn finish(flow: &TwoFluid, march: &March, samples: &[Sample], status: Status) -> Result<Outcome, Failure> {
     let (velocity, unit) = (flow.velocity_scale(), flow.d / flow.velocity_scale());
-    let mut outcome = report(flow, &march.column, &march.state, Vec::new())?;
+    let mut outcome = report(flow, &march.column, (&march.state, &march.mobilised), Vec::new())?;
     outcome.status = status;
     // The balances of a steady flow do not hold in time.
     outcome.balances =
@@ -91,7 +91,7 @@ fn finish(flow: &TwoFluid, march: &March, samples: &[Sample], status: Status) ->
     results.set(&q::SOLIDS_DRIFT, march.drift);
     results.set(&q::STEPS, march.steps as f64);
     results.set(&q::STEPS_REFUSED, march.refused as f64);
-    results.set(&q::ITERATIONS, march.iterations as f64);
+    results.set(&q::NEWTON_ITERATIONS, march.iterations as f64);
     let late: Vec<f64> = samples[samples.len() / 2..].iter().map(|sample| sample.rate).collect();
     if late.is_empty() {
         results.undefined(&q::RATE_MEAN, "the flow did not reach a sample");

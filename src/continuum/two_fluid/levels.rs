@@ -1,5 +1,6 @@
 //! What a state says of each cell, in the units of the grains.
 
+use super::face::Mobilised;
 use super::laws::{Laws, Moving};
 use super::start::middles;
 use super::state::{Cell, Unknowns};
@@ -43,6 +44,8 @@ pub struct Level {
     pub eddy: f64,
     /// production of fluctuation energy
     pub production: f64,
+    /// its flux upward
+    pub flux: f64,
     /// what its flux brings
     pub diffusion: f64,
     /// what contacts dissipate
@@ -65,10 +68,10 @@ pub struct Levels {
 }
 
 impl Levels {
-    /// The levels of `state`.
+    /// The levels of `state`, with the friction of enduring contacts that is mobilised.
     #[must_use]
-    pub fn new(column: &Column, state: &[Unknowns]) -> Self {
-        let (faces, inside) = column.evaluate(state, &Memory::steady(column.cells()));
+    pub fn new(column: &Column, state: &[Unknowns], mobilised: &[Mobilised]) -> Self {
+        let (faces, inside) = column.evaluate(state, &Memory::steady(column.cells()), mobilised);
         let laws = &column.laws;
         let heights = middles(&column.widths);
         let kinetic = matches!(laws.moving, Moving::Kinetic(_));
@@ -96,6 +99,7 @@ impl Levels {
                 length: 0.5 * (i.checked_sub(1).map_or(0.0, length) + length(i)),
                 eddy: mean(|face| face.eddy),
                 production: if kinetic { 0.5 * (work(below) + above.map_or(0.0, work)) } else { 0.0 },
+                flux: mean(|face| face.flux),
                 diffusion: (below.flux - above.map_or(0.0, |face| face.flux)) / dz,
                 contacts: inside.contacts,
                 drag_work: if kinetic { inside.drag_work } else { 0.0 },
@@ -158,10 +162,13 @@ impl Levels {
         let (Some(below), Some(above)) = (i.checked_sub(1).map(|j| &self.cells[j]), self.cells.get(i + 1)) else {
             return Some((t, here.z));
         };
-        let (slope, bend) = (0.5 * (above.t - below.t), above.t - 2.0 * here.t + below.t);
+        let (down, up) = (here.z - below.z, above.z - here.z);
+        let (left, right) = ((here.t - below.t) / down, (above.t - here.t) / up);
+        let bend = (right - left) / (down + up);
+        let slope = (left * up + right * down) / (down + up);
         if bend < 0.0 && above.phi > 1e3 * NONE {
-            let x = -slope / bend;
-            Some((t + 0.5 * slope * x, here.z + x * here.dz))
+            let x = -0.5 * slope / bend;
+            Some((t + 0.5 * slope * x, here.z + x))
         } else {
             Some((t, here.z))
         }

@@ -2,6 +2,7 @@
 
 use serde_json::json;
 
+use super::face::Mobilised;
 use super::in_time;
 use super::laws::{Laws, Moving};
 use super::levels::{Levels, NONE};
@@ -9,7 +10,7 @@ use super::newton::Stalled;
 use super::profile::profile;
 use super::state::Unknowns;
 use super::steady;
-use super::system::Column;
+use super::system::{Column, Spacing};
 use crate::closures::friction::mu_i;
 use crate::closures::kinetic::{Granular, garzo_dufty};
 use crate::continuum::bed_results::{closure_name, outside};
@@ -46,8 +47,8 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
         iterations,
         shields: flow.shields(),
     })?;
-    let mut outcome = report(flow, &column, &solved.state, solved.history)?;
-    outcome.results.set(&q::ITERATIONS, solved.iterations as f64);
+    let mut outcome = report(flow, &column, (&solved.state, &solved.mobilised), solved.history)?;
+    outcome.results.set(&q::NEWTON_ITERATIONS, solved.iterations as f64);
     let unit = flow.d / flow.velocity_scale();
     match column.growth(&solved.state) {
         Some(growth) => {
@@ -70,17 +71,18 @@ pub(super) fn column(flow: &TwoFluid, cells: usize) -> Result<Column, SolveError
     if !representable {
         return Err(SolveError::NotRepresentable { name: "the flow in units of its grains".into() });
     }
-    Ok(Column { laws, widths: vec![height / cells as f64; cells], solids })
+    let spacing = Spacing { height, level: flow.thickness / flow.d, fine: flow.fine.map(|fine| fine / flow.d) };
+    Ok(Column { laws, widths: spacing.widths(cells), spacing, solids })
 }
 
 /// Everything that is said of a state.
 pub(super) fn report(
     flow: &TwoFluid,
     column: &Column,
-    state: &[Unknowns],
+    (state, mobilised): (&[Unknowns], &[Mobilised]),
     history: Vec<f64>,
 ) -> Result<Outcome, Failure> {
-    let levels = Levels::new(column, state);
+    let levels = Levels::new(column, state, mobilised);
     let mut results = Results::default();
     transport(flow, &levels, &mut results);
     fluid(flow, &levels, &mut results);

@@ -25,7 +25,7 @@ pub(super) fn profile(flow: &TwoFluid, levels: &Levels) -> Result<Profile, Table
         Some((below - 0.5 * here) * velocity * d)
     });
     let cumulative = cumulative.collect();
-    let table: [(&'static Quantity, Vec<Option<f64>>); 22] = [
+    let table: [(&'static Quantity, Vec<Option<f64>>); 23] = [
         (&q::PHI, column(1.0, &solid)),
         (&q::U_FLUID, column(velocity, &|level| level.u)),
         (&q::U_PARTICLE, grains(velocity, &|level| level.v)),
@@ -44,14 +44,22 @@ pub(super) fn profile(flow: &TwoFluid, levels: &Levels) -> Result<Profile, Table
         (&q::GRANULAR_TEMPERATURE, grains(velocity * velocity, &|level| level.t)),
         (&q::RADIAL, levels.cells.iter().map(|level| level.radial.filter(|_| level.phi > NONE)).collect()),
         (&q::PRODUCTION, grains(power, &|level| level.production)),
+        (&q::FLUCTUATION_FLUX, grains(stress * velocity, &|level| level.flux)),
         (&q::DIFFUSION, grains(power, &|level| level.diffusion)),
         (&q::CONTACT_LOSS, grains(power, &|level| level.contacts)),
         (&q::DRAG_LOSS, grains(power, &|level| level.drag_work)),
         (&q::CUMULATIVE_FLUX, cumulative),
     ];
     let kinetic = levels.cells.iter().any(|level| level.radial.is_some());
-    let fluctuations =
-        [&q::GRANULAR_TEMPERATURE, &q::RADIAL, &q::PRODUCTION, &q::DIFFUSION, &q::CONTACT_LOSS, &q::DRAG_LOSS];
+    let fluctuations = [
+        &q::GRANULAR_TEMPERATURE,
+        &q::RADIAL,
+        &q::PRODUCTION,
+        &q::FLUCTUATION_FLUX,
+        &q::DIFFUSION,
+        &q::CONTACT_LOSS,
+        &q::DRAG_LOSS,
+    ];
     for (quantity, values) in table {
         if kinetic || !fluctuations.contains(&quantity) {
             profile.push(quantity, values)?;

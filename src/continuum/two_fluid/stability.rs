@@ -51,8 +51,9 @@ impl Column {
         }
         shifted.factor(state).ok()?;
         let (with, without) = (linear(1.0), linear(0.0));
+        let velocity = self.laws.fall().recip();
         let apply = |x: &[f64]| -> Vec<f64> {
-            let of = |i: usize, k: usize| x[SIZE * i + k] * unit(k, &state[i]);
+            let of = |i: usize, k: usize| x[SIZE * i + k] * unit(k, &state[i], velocity);
             let mut side = with.times(of);
             side.iter_mut().zip(without.times(of)).for_each(|(a, b)| *a -= b);
             shifted.solve(&mut side);

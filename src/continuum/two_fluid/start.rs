@@ -17,13 +17,23 @@ const SKY: (f64, f64) = (1e-3, 0.3);
 /// Share of phi_max that a guess stays below.
 const FULL: f64 = 0.99;
 
+/// Share of the friction above that at rest, and of the solid fraction at rest, that a guessed film has.
+const SLIDING: (f64, f64) = (0.1, 0.97);
+
 /// A first guess of the flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Guess {
-    /// Shields number
-    pub shields: f64,
-    /// thickness of the moving layer in units of the usual one
-    pub thickness: f64,
+pub enum Start {
+    /// the bed at rest under still water
+    Rest,
+    /// a layer that moves over the bed
+    Layer {
+        /// Shields number
+        shields: f64,
+        /// thickness of the moving layer in units of the usual one
+        thickness: f64,
+    },
+    /// all grains slide down the slope
+    Film,
 }
 
 impl Column {
@@ -39,12 +49,37 @@ impl Column {
         state
     }
 
-    /// A layer that moves over a bed of the solid fraction `phi`: linear in solid fraction and velocity, agitated in its middle.
+    /// The state of a first guess over a bed of the solid fraction `phi`.
     #[must_use]
-    pub fn guess(&self, phi: f64, guess: Guess) -> Vec<Unknowns> {
+    pub fn from(&self, phi: f64, start: Start) -> Vec<Unknowns> {
+        match start {
+            Start::Rest => self.at_rest(phi),
+            Start::Layer { shields, thickness } => self.layer(phi, shields, thickness),
+            Start::Film => self.film(phi),
+        }
+    }
+
+    /// Grains that flow as a film with one inertial number: v goes like 1 - (1 - z/h)^(3/2).
+    fn film(&self, phi: f64) -> Vec<Unknowns> {
+        let (laws, phi) = (&self.laws, phi * SLIDING.1);
         let level = self.solids / phi;
-        let half = (0.5 * LAYER * guess.shields).max(0.5 * THINNEST) * guess.thickness;
-        let u_star = guess.shields.sqrt();
+        let rate = SLIDING.0 * (phi * laws.weight / laws.ratio).sqrt();
+        let mut state = self.fill(|below, above| {
+            let height = 0.5 * (below + above);
+            let left = (level - height).max(0.0);
+            let v = rate * 2.0 / 3.0 * (level.powf(1.5) - left.powf(1.5));
+            let filled = ((level - below) / (above - below)).clamp(0.0, 1.0);
+            (phi * filled, v, v, rate * rate * left)
+        });
+        self.accumulate(&mut state);
+        state
+    }
+
+    /// A layer that moves over a bed of the solid fraction `phi`: linear in solid fraction and velocity, agitated in its middle.
+    fn layer(&self, phi: f64, shields: f64, thickness: f64) -> Vec<Unknowns> {
+        let level = self.solids / phi;
+        let half = (0.5 * LAYER * shields).max(0.5 * THINNEST) * thickness;
+        let u_star = shields.sqrt();
         let mut state = self.fill(|below, above| {
             let height = 0.5 * (below + above) - level;
             let share = height / half;
@@ -52,7 +87,7 @@ impl Column {
             let solid = phi * (0.5 - 0.5 * share).clamp(0.0, 1.0);
             let rising = 0.5 * FASTEST * u_star * (share + 1.0).clamp(0.0, 2.0);
             let below_middle = share.min(0.0);
-            let heat = AGITATION * guess.shields * (-(below_middle * below_middle).min(2.25)).exp();
+            let heat = AGITATION * shields * (-(below_middle * below_middle).min(2.25)).exp();
             (solid.max(sky), SLIP.0 * rising + SLIP.1, rising, heat)
         });
         self.accumulate(&mut state);

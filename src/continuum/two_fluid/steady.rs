@@ -1,8 +1,9 @@
 //! The steady flow: a coarse column marches from a guess through pseudo-time until Newton's method takes over, and hands its
 //! solution to the wanted column. The equations are those of the transient with a vanishing rate.
 
+use super::face::Mobilised;
 use super::newton::{Pace, Stalled};
-use super::start::Guess;
+use super::start::Start;
 use super::state::{HEAT, LOGIT, Unknowns};
 use super::system::{Column, Linear, Memory, carried};
 
@@ -10,6 +11,9 @@ use super::system::{Column, Linear, Memory, carried};
 const TRIALS: [(usize, f64); 4] = [(80, 1.0), (120, 1.0), (80, 1.6), (120, 0.6)];
 /// Drives from which the flow is followed down to the wanted one, over it.
 const STRONGER: [f64; 3] = [1.5, 2.5, 4.0];
+/// Shields numbers below which a bed is tried at rest first, and below which a stronger flow is tried before the wanted one:
+/// near the threshold flows are unstable, and marches do not settle.
+const WEAK: [f64; 2] = [0.05, 0.35];
 /// First, smallest and largest step of pseudo-time, in the time in which grains fall.
 const STEPS: [f64; 3] = [0.06, 1e-6, 2e2];
 /// Most iterations of one march.
@@ -27,18 +31,19 @@ const WALK: (f64, f64) = (0.05, 1e-3);
 pub struct Steady {
     /// its state
     pub state: Vec<Unknowns>,
+    /// friction of enduring contacts that is mobilised at each face
+    pub mobilised: Vec<Mobilised>,
     /// residuals of the last Newton iterations, of all stages
     pub history: Vec<f64>,
     /// Newton iterations of all stages
     pub iterations: usize,
 }
 
-/// The column in fewer cells of equal heights.
+/// The column in fewer cells.
 #[must_use]
 pub fn coarser(column: &Column, cells: usize) -> Column {
-    let height: f64 = column.widths.iter().sum();
     let cells = cells.min(column.cells());
-    Column { widths: vec![height / cells as f64; cells], ..column.clone() }
+    Column { widths: column.spacing.widths(cells), ..column.clone() }
 }
 
 /// How far a march with the step `dt` is, from 0 to 1.
@@ -121,25 +126,53 @@ fn settle(
 pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut(f64) -> bool) -> Result<Steady, Stalled> {
     let (mut iterations, mut history) = (0, Vec::new());
     let mut best = f64::INFINITY;
-    // A flow near the threshold of motion is unstable and marches do not settle: it is reached from a stronger one.
-    let straight = TRIALS[..1].iter().map(|trial| (trial, 1.0));
-    let from_above = STRONGER.into_iter().map(|factor| (&TRIALS[0], factor));
-    let others = TRIALS[1..].iter().map(|trial| (trial, 1.0));
-    for (&(cells, thickness), factor) in straight.chain(from_above).chain(others) {
+    for (cells, start, factor) in ways(column, shields) {
         if stop(0.0) || iterations > MOST_IN_ALL {
             break;
         }
         let (coarse, driven) = (coarser(column, cells), column.driven(factor));
-        let guess = coarse.guess(phi, Guess { shields: shields * factor, thickness });
+        let guess = coarse.from(phi, start);
         let found = march(&coarse.driven(factor), guess, &mut iterations, &mut history, &mut stop)
             .and_then(|rough| refine(&driven, &coarse.driven(factor), &rough, &mut iterations, &mut history, &mut stop))
             .and_then(|state| walk(column, state, factor, &mut iterations, &mut history, &mut stop));
         match found {
-            Ok(state) => return Ok(Steady { state, history, iterations }),
+            Ok(mut state) => {
+                // Once more, for the friction of the contacts at rest.
+                let mut linear = Linear::new(column.cells());
+                let (state, made) = settle(column, &mut state, &mut linear, &mut history)?;
+                return Ok(Steady { state, mobilised: linear.mobilised, history, iterations: iterations + made });
+            }
             Err(stalled) => best = best.min(stalled.residual),
         }
     }
     Err(Stalled { residual: best, iterations })
+}
+
+/// Where to start from, in turn: cells of the march, its first state, and the drive over the wanted one.
+fn ways(column: &Column, shields: f64) -> Vec<(usize, Start, f64)> {
+    let layer = |(cells, thickness): (usize, f64), factor: f64| {
+        (cells, Start::Layer { shields: shields * factor, thickness }, factor)
+    };
+    let straight = layer(TRIALS[0], 1.0);
+    let rest = (TRIALS[0].0, Start::Rest, 1.0);
+    let others = TRIALS[1..].iter().map(|trial| layer(*trial, 1.0));
+    let mut ways = Vec::new();
+    if column.laws.slides() {
+        ways.push((TRIALS[0].0, Start::Film, 1.0));
+    }
+    if shields < WEAK[0] {
+        ways.extend([rest, straight]);
+    } else {
+        let mut above: Vec<_> = STRONGER.into_iter().map(|factor| layer(TRIALS[0], factor)).collect();
+        // From the first flow that is not weak itself.
+        above.sort_by_key(|(_, _, factor)| shields * factor < WEAK[1]);
+        let first = if shields < WEAK[1] { above.len() } else { 0 };
+        above.insert(first, straight);
+        ways.append(&mut above);
+        ways.push(rest);
+    }
+    ways.extend(others);
+    ways
 }
 
 impl Column {

@@ -26,8 +26,35 @@ pub struct Column {
     pub laws: Laws,
     /// heights of the cells
     pub widths: Vec<f64>,
+    /// where they are fine, and where the column ends
+    pub spacing: Spacing,
     /// solid volume per area
     pub solids: f64,
+}
+
+/// How the cells of a column share its height: z = level + fine sinh(s) with s in equal steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spacing {
+    /// height of the column
+    pub height: f64,
+    /// level at which the cells are finest
+    pub level: f64,
+    /// distance from it within which they stay fine; all of the same height without
+    pub fine: Option<f64>,
+}
+
+impl Spacing {
+    /// Heights of `cells` cells.
+    #[must_use]
+    pub fn widths(&self, cells: usize) -> Vec<f64> {
+        let n = cells as f64;
+        let Some(fine) = self.fine else { return vec![self.height / n; cells] };
+        let (low, high) = ((-self.level / fine).asinh(), ((self.height - self.level) / fine).asinh());
+        let half = 0.5 * (high - low) / n;
+        // The difference of two hyperbolic sines, without their cancellation.
+        let width = |i: usize| 2.0 * fine * half.sinh() * (low + (2 * i + 1) as f64 * half).cosh();
+        (0..cells).map(width).collect()
+    }
 }
 
 /// What is known of the time derivatives.
@@ -69,6 +96,10 @@ pub struct Linear {
     matrix: Banded,
     /// the part of each row that its largest entry is
     scales: Vec<f64>,
+    /// what velocities are measured in
+    velocity: f64,
+    /// friction of enduring contacts at the end of the last solution
+    pub mobilised: Vec<Mobilised>,
 }
 
 impl Column {
@@ -84,20 +115,37 @@ impl Column {
 
     /// Faces 0 to n - 1, without the top, through which nothing passes, and the cells.
     #[must_use]
-    pub fn evaluate(&self, state: &[Unknowns], memory: &Memory) -> (Vec<Face<f64>>, Vec<Inside<f64>>) {
-        let setting = Setting { laws: &self.laws, rate: memory.rate };
+    pub fn evaluate(
+        &self,
+        state: &[Unknowns],
+        memory: &Memory,
+        mobilised: &[Mobilised],
+    ) -> (Vec<Face<f64>>, Vec<Inside<f64>>) {
+        let setting = Setting { laws: &self.laws, rate: memory.rate, held: true };
         let cells: Vec<Cell<f64>> = state.iter().map(|x| Cell::new(&self.laws, x)).collect();
-        let at_rest = Mobilised::default();
-        let mut faces = vec![setting.wall(0.5 * self.widths[0], &cells[0], self.solids, at_rest)];
+        let mut faces = vec![setting.wall(0.5 * self.widths[0], &cells[0], self.solids, mobilised[0])];
         let mut inside = Vec::with_capacity(cells.len());
         for (i, cell) in cells.iter().enumerate() {
             if i > 0 {
-                faces.push(setting.face(self.halves(i), &cells[i - 1], cell, (memory.of(i - 1).0, at_rest)));
+                faces.push(setting.face(self.halves(i), &cells[i - 1], cell, (memory.of(i - 1).0, mobilised[i])));
             }
             let below = if i > 0 { cells[i - 1].rise } else { 0.0 };
             inside.push(setting.inside(self.widths[i], cell, below, &memory.of(i).1));
         }
         (faces, inside)
+    }
+
+    /// What the momenta of fluid and grains miss in each cell, with the friction of enduring contacts that is mobilised.
+    #[must_use]
+    pub fn missed(&self, state: &[Unknowns], memory: &Memory, mobilised: &[Mobilised]) -> Vec<[f64; 2]> {
+        let (faces, inside) = self.evaluate(state, memory, mobilised);
+        let of = |rows: &[f64; SIZE]| [rows[FLUID], rows[GRAINS]];
+        let sum = |i: usize| {
+            let above = faces.get(i + 1).map_or([0.0; 2], |face| of(&face.lower));
+            let (below, within) = (of(&faces[i].upper), of(&inside[i].rows));
+            [below[0] + within[0] + above[0], below[1] + within[1] + above[1]]
+        };
+        (0..self.cells()).map(sum).collect()
     }
 
     /// Shear rates of the grains at the faces 0 to n - 1.
@@ -110,9 +158,10 @@ impl Column {
 
     /// Residuals and derivatives at `state`.
     pub fn linearise(&self, state: &[Unknowns], memory: &Memory, mobilised: &[Mobilised], linear: &mut Linear) {
-        let setting = Setting { laws: &self.laws, rate: memory.rate };
+        let setting = Setting { laws: &self.laws, rate: memory.rate, held: false };
         let n = self.cells();
         linear.residual.fill(0.0);
+        linear.velocity = self.laws.fall().recip();
         linear.blocks.fill([[[0.0; SIZE]; SIZE]; 3]);
         let mut below: Option<Cell<Dual<SIZE>>> = None;
         for i in 0..n {
@@ -153,6 +202,8 @@ impl Linear {
             blocks: vec![[[[0.0; SIZE]; SIZE]; 3]; cells],
             matrix: Banded::zeros(SIZE * cells, BAND, BAND),
             scales: vec![1.0; SIZE * cells],
+            velocity: 1.0,
+            mobilised: vec![Mobilised::default(); cells],
         }
     }
 
@@ -160,13 +211,6 @@ impl Linear {
     #[must_use]
     pub fn residual(&self) -> &[f64] {
         &self.residual
-    }
-
-    /// Largest force that a cell misses.
-    #[must_use]
-    pub fn missed(&self) -> f64 {
-        let rows = self.residual.chunks(SIZE);
-        rows.map(|row| row[FLUID].abs().max(row[GRAINS].abs())).fold(0.0, f64::max)
     }
 
     /// The derivatives along the direction that `of` gives to each unknown of each cell.
@@ -254,7 +298,7 @@ impl Linear {
                 for (block, x) in blocks.iter().zip(neighbours(state, i)) {
                     let Some(x) = x else { continue };
                     for (k, slope) in block[row].iter().enumerate() {
-                        scale = scale.max((slope * unit(k, x)).abs());
+                        scale = scale.max((slope * unit(k, x, self.velocity)).abs());
                     }
                 }
                 self.scales[SIZE * i + row] = scale;
@@ -299,7 +343,7 @@ impl Linear {
                     let at = SIZE * i + row;
                     for (k, slope) in slopes.iter().enumerate() {
                         let column = SIZE * (i + side) - SIZE + k;
-                        self.matrix.add(at, column, slope * unit(k, x) / self.scales[at]);
+                        self.matrix.add(at, column, slope * unit(k, x, self.velocity) / self.scales[at]);
                     }
                 }
             }
@@ -308,10 +352,15 @@ impl Linear {
     }
 }
 
-/// What the unknown `k` is measured in.
+/// What the unknown `k` is measured in, velocities in `velocity`: that of grains that fall their diameter in a vacuum, which
+/// a fluid of any weight leaves as it is.
 #[must_use]
-pub fn unit(k: usize, x: &Unknowns) -> f64 {
-    if k == VOLUME { x[VOLUME].abs().max(LEAST) } else { 1.0 }
+pub fn unit(k: usize, x: &Unknowns, velocity: f64) -> f64 {
+    match k {
+        VOLUME => x[VOLUME].abs().max(LEAST),
+        RISE | FLUID | GRAINS => velocity,
+        _ => 1.0,
+    }
 }
 
 fn neighbours(state: &[Unknowns], i: usize) -> [Option<&Unknowns>; 3] {

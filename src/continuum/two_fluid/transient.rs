@@ -5,14 +5,15 @@
 //! step is 2/9 of what it misses the parabola through the three states before by. A step whose error is too large, or on which
 //! Newton's method fails, is taken again, shorter.
 
+use super::face::Mobilised;
 use super::newton::{Pace, Stalled};
-use super::state::{FLUID, GRAINS, HEAT, LOGIT, RISE, SIZE, Unknowns};
+use super::state::{GRAINS, HEAT, LOGIT, RISE, Unknowns};
 use super::system::{Column, Linear, Memory, carried};
 
-/// Pace of a step: after it the residuals are round-off.
-const PACE: Pace = Pace { tolerance: 1e-7, force: f64::INFINITY, most: 9 };
-/// First and smallest step, in the time in which grains fall.
-const STEPS: (f64, f64) = (1e-3, 1e-9);
+/// Pace of a step: the forces balance after it, and the iteration leaves less than this share of the error of the step.
+const PACE: Pace = Pace { tolerance: 1e-4, force: 1e-8, most: 16 };
+/// First step for an error of 1, and smallest step, in the time in which grains fall.
+const STEPS: (f64, f64) = (3e-2, 1e-9);
 /// Largest growth and fall of a step, and what a failure of Newton's method leaves of it.
 const GROWTH: (f64, f64, f64) = (2.0, 0.2, 0.25);
 /// A step aims at this share of the allowed error, and is kept up to this multiple of it.
@@ -32,6 +33,8 @@ pub struct March {
     pub time: f64,
     /// state
     pub state: Vec<Unknowns>,
+    /// friction of enduring contacts that is mobilised at each face
+    pub mobilised: Vec<Mobilised>,
     /// steps made, steps made in vain, Newton iterations
     pub steps: usize,
     /// see `steps`
@@ -62,11 +65,13 @@ impl March {
     /// From `state` at time 0.
     #[must_use]
     pub fn new(column: Column, state: Vec<Unknowns>) -> Self {
-        let (linear, dt) = (Linear::new(column.cells()), STEPS.0 * column.laws.fall());
+        let (linear, dt) = (Linear::new(column.cells()), 0.0);
+        let mobilised = linear.mobilised.clone();
         Self {
             column,
             time: 0.0,
             state,
+            mobilised,
             steps: 0,
             refused: 0,
             iterations: 0,
@@ -82,13 +87,18 @@ impl March {
     /// # Errors
     /// [`Stuck`] if no step is short enough.
     pub fn step(&mut self, tolerance: f64, end: f64, drive: impl Fn(f64) -> [f64; 2]) -> Result<(), Stuck> {
+        let pace = Pace { tolerance: (PACE.tolerance * tolerance).min(1e-7), ..PACE };
         loop {
+            if self.before.is_empty() && self.refused == 0 {
+                // Backward Euler: its error goes with the square of the step.
+                self.dt = STEPS.0 * tolerance.sqrt() * self.column.laws.fall();
+            }
             let dt = self.dt.min(end - self.time);
             let last = dt >= end - self.time;
             self.column.laws.drive = drive(self.time + dt);
             let memory = self.memory(dt);
             let mut next = self.ahead(dt);
-            let residual = match self.column.newton(&mut next, &memory, &mut self.linear, PACE) {
+            let residual = match self.column.newton(&mut next, &memory, &mut self.linear, pace) {
                 Ok((made, _)) => {
                     self.iterations += made;
                     let error = self.error(dt, &next);
@@ -117,6 +127,7 @@ impl March {
 
     fn keep(&mut self, dt: f64, next: Vec<Unknowns>) {
         let old = std::mem::replace(&mut self.state, next);
+        self.mobilised.clone_from(&self.linear.mobilised);
         self.before.insert(0, (dt, old));
         self.before.truncate(3);
         self.time += dt;
@@ -180,7 +191,8 @@ impl March {
                 largest[k] = largest[k].max(x[k].abs());
             }
         }
-        let whole = [laws.phi_max, 1e-2, 1e-2, laws.floors.temperature.max(1e-4)];
+        let slow = 1e-2 / laws.fall();
+        let whole = [laws.phi_max, slow, slow, laws.floors.temperature.max(slow * slow)];
         let error = (0..4).map(|k| missed[k] / largest[k].max(whole[k])).fold(0.0, f64::max);
         ERROR * error
     }
@@ -191,11 +203,7 @@ impl March {
         let (dt, _) = self.before.first()?;
         let earlier = Self { state: self.before[0].1.clone(), before: self.before[1..].to_vec(), ..self.clone() };
         let memory = earlier.memory(*dt);
-        let mut linear = Linear::new(self.column.cells());
-        let shear = vec![super::face::Mobilised::default(); self.column.cells()];
-        self.column.linearise(&self.state, &memory, &shear, &mut linear);
-        let rows = linear.residual().as_chunks::<SIZE>().0;
-        let missed: f64 = rows.iter().map(|row| row[FLUID] + row[GRAINS]).sum();
+        let missed: f64 = self.column.missed(&self.state, &memory, &self.mobilised).iter().flatten().sum();
         let height: f64 = self.column.widths.iter().sum();
         let drive = height * self.column.laws.drive[0].abs()
             + self.column.solids * self.column.laws.ratio * self.column.laws.drive[1].abs();

@@ -10,10 +10,10 @@ use crate::continuum::two_fluid::system::Memory;
 
 #[test]
 fn one_medium_gives_the_same_stresses_to_both() {
-    let (flow, column) = reference(&[], 120);
+    let (flow, column) = reference(&["grid.fine="], 120);
     let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
     let (laws, state) = (&column.laws, &solved.state);
-    let levels = Levels::new(&column, state);
+    let levels = Levels::new(&column, state, &solved.mobilised);
     let cells: Vec<Cell<f64>> = state.iter().map(|x| Cell::new(laws, x)).collect();
     let medium = Medium {
         phi: cells.iter().map(|cell| cell.phi).collect(),
@@ -36,7 +36,7 @@ fn one_medium_gives_the_same_stresses_to_both() {
     fluid.set_velocity(&velocity).unwrap();
     let forcing = Forcing { drive: laws.drive[0], bottom: Bottom::NoSlip, top: Top::FreeSurface };
     fluid.step(&medium, &forcing, f64::INFINITY).unwrap();
-    let (faces, _) = column.evaluate(state, &Memory::steady(120));
+    let (faces, _) = column.evaluate(state, &Memory::steady(120), &solved.mobilised);
     let scale = faces.iter().map(|face| face.turbulent).fold(0.0, f64::max);
     for (f, face) in faces.iter().enumerate() {
         let (viscous, turbulent) = (fluid.tau_viscous()[f], fluid.tau_reynolds()[f]);

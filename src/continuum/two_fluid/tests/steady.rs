@@ -10,17 +10,29 @@ use approx::assert_relative_eq;
 fn rate(set: &[&str], cells: usize) -> f64 {
     let (flow, column) = reference(set, cells);
     let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
-    Levels::new(&column, &solved.state).flux()
+    Levels::new(&column, &solved.state, &solved.mobilised).flux()
 }
 
 #[test]
 fn order_two_on_the_grid() {
-    for law in [&[] as &[&str], &[CLASSICAL]] {
+    for law in [&["grid.fine="] as &[&str], &["grid.fine=", CLASSICAL]] {
         let [a, b, c] = [60, 120, 240].map(|cells| rate(law, cells));
         let order = ((a - b) / (b - c)).log2();
         assert!((1.5..2.5).contains(&order), "{law:?}: {a} {b} {c}, order {order}");
-        // What the shipped grid of 240 cells leaves.
         assert!((b - c).abs() / 3.0 < 0.003 * c, "{law:?}: {b} {c}");
+    }
+}
+
+#[test]
+fn the_shipped_grid_is_fine_enough_at_all_shields_numbers() {
+    for shields in ["0.2", "0.4", "0.6", "0.8", "1"] {
+        for law in ["closures.granular.law=frictional-collisional", CLASSICAL] {
+            let shields = format!("flow.shields={shields}");
+            let set = [shields.as_str(), law];
+            let [shipped, finer] = [240, 480].map(|cells| rate(&set, cells));
+            let error = 4.0 / 3.0 * (shipped / finer - 1.0);
+            assert!(error.abs() < 0.005, "{set:?}: {shipped} {finer}");
+        }
     }
 }
 
@@ -74,7 +86,7 @@ fn balances_close_and_solids_are_kept() {
 fn the_pressure_carries_the_weight() {
     let (flow, column) = reference(&[], 240);
     let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
-    let levels = Levels::new(&column, &solved.state);
+    let levels = Levels::new(&column, &solved.state, &solved.mobilised);
     let lowest = &levels.cells[0];
     let carried = lowest.pressure + lowest.elastic + 0.5 * lowest.dz * lowest.phi * column.laws.weight;
     assert_relative_eq!(carried, column.solids * column.laws.weight, max_relative = 2e-4);
@@ -98,4 +110,38 @@ fn near_the_threshold_the_steady_flow_is_unstable() {
     assert!(unstable.rate > 0.0 && unstable.frequency > 0.0, "{unstable:?}");
     assert!(stable.rate < 0.0, "{stable:?}");
     assert!(growth(&["flow.shields=0.25"]).rate < 0.0);
+}
+
+#[test]
+fn without_shear_nothing_moves_but_what_seeps() {
+    // A slope without water: the bed holds, and the seepage has the drag that the slope drives.
+    let (flow, column) = reference(&["flow.shields=", "flow.depth=0", "flow.slope=0.01", "grid.fine="], 80);
+    let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
+    let levels = Levels::new(&column, &solved.state, &solved.mobilised);
+    assert!(levels.flux() < 1e-6, "{}", levels.flux());
+    let deep = &levels.cells[5];
+    assert_relative_eq!(deep.drag, (1.0 - deep.phi) * column.laws.drive[0], max_relative = 1e-3);
+    // Contacts carry what the slope drives.
+    let driven: f64 = levels.cells[5..].iter().map(|level| {
+        level.dz * (level.phi * column.laws.ratio + 1.0 - level.phi) * column.laws.drive[0]
+    }).sum();
+    assert_relative_eq!(levels.at(levels.cells[5].z - 0.5 * deep.dz, |level| level.contact).unwrap(), driven, max_relative = 1e-3);
+}
+
+#[test]
+fn a_dry_film_is_that_of_bagnold() {
+    let flow = flow("two_fluid_1d_avalanche", &[]);
+    let column = outcome::column(&flow, 240).unwrap();
+    let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
+    let levels = Levels::new(&column, &solved.state, &solved.mobilised);
+    // tan(24 deg) of the weight of grains and air over that of the grains in air: I = 0.094128, phi = 0.61/(1 + 0.31 I) = 0.592705.
+    let (i, phi) = (0.094_128, 0.592_705);
+    let height = column.solids / phi;
+    let scale = 2.0 / 3.0 * i * (phi * column.laws.weight / column.laws.ratio).sqrt();
+    let surface = scale * height.powf(1.5);
+    for level in levels.cells.iter().filter(|level| level.z < 0.9 * height) {
+        let exact = scale * (height.powf(1.5) - (height - level.z).powf(1.5));
+        assert!((level.v - exact).abs() < 0.01 * surface, "z {}: {} {exact}", level.z, level.v);
+        assert!((level.phi - phi).abs() < 2e-3, "z {}: phi {}", level.z, level.phi);
+    }
 }

@@ -8,9 +8,9 @@ use approx::assert_relative_eq;
 
 #[test]
 fn it_ends_where_the_steady_flow_is_and_keeps_its_grains() {
-    let (flow, column) = reference(&[], 60);
+    let (flow, column) = reference(&["grid.fine="], 60);
     let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
-    let wanted = Levels::new(&column, &solved.state).flux();
+    let wanted = Levels::new(&column, &solved.state, &solved.mobilised).flux();
     let drive = column.laws.drive;
     let mut march = March::new(column.clone(), column.at_rest(flow.phi));
     let end = 60.0 * flow.velocity_scale() / flow.d;
@@ -22,13 +22,15 @@ fn it_ends_where_the_steady_flow_is_and_keeps_its_grains() {
 }
 
 #[test]
-fn smaller_errors_with_smaller_steps() {
-    let (_, column) = reference(&[], 40);
-    let drive = column.laws.drive;
+fn order_two_in_time() {
+    // From the steady flow under a drive that grows smoothly: grains that begin to move are kinks, and lower the order there.
+    let (flow, column) = reference(&["grid.fine="], 40);
+    let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
+    let drive = |time: f64| column.laws.drive.map(|drive| drive * (1.0 + 0.2 * (0.3 * time).sin().powi(2)));
     let after = |tolerance: f64| {
-        let mut march = March::new(column.clone(), column.at_rest(0.6065));
+        let mut march = March::new(column.clone(), solved.state.clone());
         while march.time < 20.0 {
-            march.step(tolerance, 20.0, |_| drive).unwrap();
+            march.step(tolerance, 20.0, drive).unwrap();
         }
         (march.state.iter().map(|x| x[super::super::state::FLUID]).sum::<f64>(), march.steps)
     };
@@ -36,8 +38,7 @@ fn smaller_errors_with_smaller_steps() {
     let (rough, fine) = (after(1e-4), after(1e-6));
     let ratio = ((rough.0 - finest) / (fine.0 - finest)).abs();
     let order = ratio.ln() / (fine.1 as f64 / rough.1 as f64).ln();
-    // Grains that yield and packings that open are kinks in time: between orders 1 and 2.
-    assert!(order > 1.0, "{order}: {rough:?} {fine:?} {finest}");
+    assert!(order > 1.7, "{order}: {rough:?} {fine:?} {finest}");
 }
 
 #[test]
@@ -48,7 +49,7 @@ fn a_suspension_settles_with_the_hindered_velocity() {
     let drive = column.laws.drive;
     let mut march = March::new(column.clone(), column.at_rest(flow.phi));
     let level = |march: &March, phi: f64, above: bool| {
-        let cells = Levels::new(&march.column, &march.state).cells;
+        let cells = Levels::new(&march.column, &march.state, &march.mobilised).cells;
         let crossed = |pair: &&[crate::continuum::two_fluid::levels::Level]| pair[0].phi >= phi && pair[1].phi < phi;
         let mut pairs = cells.windows(2);
         let pair = if above { pairs.rfind(crossed) } else { pairs.find(crossed) }.unwrap();
