@@ -72,6 +72,7 @@ impl Fault {
             }
             Self::Floating { .. } => Some("grains.density must exceed fluid.density".into()),
             Self::IterationNeedsCreep => Some("give [regularisation] a law and a lambda, or take newton".into()),
+            Self::NeedsTime => Some("remove flow.oscillation, or set model.state = \"transient\"".into()),
             Self::NoWidth => Some("remove it, or set flow.shape = \"rectangle\"".into()),
             Self::Slender { .. } => Some("shape = \"planes\" is the limit of a wide section".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),

@@ -260,6 +260,9 @@ pub enum Fault {
     /// The pseudo-time iteration with the exact yield.
     #[error("the iteration needs a regularisation: the viscosity of grains at rest is infinite")]
     IterationNeedsCreep,
+    /// Waves in a steady flow.
+    #[error("a steady flow has no waves")]
+    NeedsTime,
     /// A law that the model cannot hold.
     #[error("closures.{family} law \"{law}\" does not go with {model}")]
     LawMismatch {
@@ -338,6 +341,7 @@ impl Fault {
             Self::DualIsExact => "dual-is-exact",
             Self::PackedBeyond { .. } => "packed-beyond",
             Self::IterationNeedsCreep => "iteration-needs-creep",
+            Self::NeedsTime => "needs-time",
             Self::LawMismatch { .. } => "law-mismatch",
             Self::RoughnessAboveFlow { .. } => "roughness-above-flow",
             Self::UnknownQuantity { .. } => "unknown-quantity",

@@ -184,7 +184,8 @@ fn draw(
     case: &str,
     png: bool,
 ) -> Result<Vec<PathBuf>, OutputError> {
-    let figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
+    let mut figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
+    figures.extend(profile.map(|p| plot::judge_figures(p, problem)).unwrap_or_default());
     let page = {
         let (equations, notes) = (crate::equations(problem), [problem.title.clone()]);
         let picture = picture(place, summary);
