@@ -5,7 +5,7 @@ use crate::closures::dilatancy::{phi_i, phi_iv};
 use crate::closures::drag::{carman_kozeny, dallavalle, dallavalle_grain};
 use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
-use crate::continuum::{laminar, sheet_flow};
+use crate::continuum::{laminar, sheet_flow, two_fluid};
 use crate::discrete::{bed as grain_bed, couple, impact, trials};
 use crate::problem::{Contents, DuctFlow, Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
@@ -28,6 +28,7 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::Laminar(bed) => laminar::run(bed, problem.cells, watch),
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
         Model::SheetFlow(flow) => sheet_flow::run(flow, problem.cells, watch),
+        Model::TwoFluid(flow) => two_fluid::run(flow, problem.cells, watch),
         Model::Duct(flow) => section::run(flow, problem.cells, watch),
         Model::Cavity(flow) => section::run_cavity(flow, problem.cells, watch),
         Model::Grains(bed) => grain_bed::run(bed, watch),
@@ -49,6 +50,7 @@ pub fn equations(problem: &Problem) -> String {
         Model::Laminar(bed) => laminar::equations(bed),
         Model::Bingham(plane) => laminar::bingham_equations(plane),
         Model::SheetFlow(flow) => sheet_flow::equations(flow),
+        Model::TwoFluid(flow) => two_fluid::equations(flow),
         Model::Duct(flow) => section::equations(flow),
         Model::Cavity(flow) => section::cavity_equations(flow),
         Model::Grains(bed) => grain_bed::equations(bed),
@@ -69,6 +71,13 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             let mut laws = vec![friction, bed.viscosity.info()];
             laws.extend(bed.drag.map(|_| &carman_kozeny::INFO));
             laws.extend(bed.dilatancy.map(|_| &phi_iv::INFO));
+            laws
+        }
+        Model::TwoFluid(flow) => {
+            let mut laws = vec![flow.granular.info()];
+            laws.extend(flow.granular.parts());
+            laws.extend([flow.elastic.info(), flow.static_friction.info(), &dallavalle_grain::INFO]);
+            laws.extend([flow.mixing_length.info(), flow.dispersion.info()]);
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) | Model::Duct(_) | Model::Cavity(_) => Vec::new(),

@@ -75,6 +75,7 @@ impl Fault {
             Self::NotWhole => {
                 Some("remove it: `--set grid.along=`; model.form = \"mixed\" and method = \"newton\" have it".into())
             }
+            Self::NeedsTime => Some("remove flow.oscillation, or set model.state = \"transient\"".into()),
             Self::NoWidth => Some("remove it, or set flow.shape = \"rectangle\"".into()),
             Self::Slender { .. } => Some("shape = \"planes\" is the limit of a wide section".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),

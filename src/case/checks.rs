@@ -34,6 +34,8 @@ pub enum CheckKind {
     Verification,
     /// Against measurements or published results.
     Validation,
+    /// Against this program's own result, from finer grids or before: it shows that nothing has changed, and no more.
+    Regression,
     /// A claim that is not reproduced: both numbers are shown, and the row is never red.
     Finding,
 }

@@ -263,6 +263,9 @@ pub enum Fault {
     /// The pseudo-time iteration with the exact yield.
     #[error("the iteration needs a regularisation: the viscosity of grains at rest is infinite")]
     IterationNeedsCreep,
+    /// Waves in a steady flow.
+    #[error("a steady flow has no waves")]
+    NeedsTime,
     /// A law that the model cannot hold.
     #[error("closures.{family} law \"{law}\" does not go with {model}")]
     LawMismatch {
@@ -342,6 +345,7 @@ impl Fault {
             Self::NotWhole => "not-whole",
             Self::PackedBeyond { .. } => "packed-beyond",
             Self::IterationNeedsCreep => "iteration-needs-creep",
+            Self::NeedsTime => "needs-time",
             Self::LawMismatch { .. } => "law-mismatch",
             Self::RoughnessAboveFlow { .. } => "roughness-above-flow",
             Self::UnknownQuantity { .. } => "unknown-quantity",

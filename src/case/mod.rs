@@ -22,6 +22,7 @@ pub mod section;
 pub mod sheet;
 pub mod shipped;
 pub mod tables;
+pub mod two_fluid;
 mod wording;
 
 pub use diagnose::nearest;

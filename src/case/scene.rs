@@ -20,6 +20,10 @@ use super::tables::{
     Fluid, Grains, Grid, LaminarFlow, LaminarModel, LogLawModel, OuriemiModel, PlaneFlow, RegularisationTable,
     WallClosures, WallFlow, YieldGrid,
 };
+use super::two_fluid::{
+    CollidingGrains, TwoFluidBed, TwoFluidClosures, TwoFluidFlow, TwoFluidGrid, TwoFluidModel, TwoFluidRegularisation,
+    TwoFluidSolver,
+};
 
 macro_rules! scenes {
     ($($(#[$doc:meta])* $name:ident ($scene:literal) { $($(#[$attribute:meta])* $table:ident: $type:ty,)* })*) => {
@@ -258,6 +262,30 @@ scenes! {
         /// The iteration.
         #[serde(default)]
         solver: SheetSolver,
+    }
+    /// Grains that collide and the turbulent fluid that drives them, as two fluids of one dimension.
+    TwoFluid ("two-fluid") {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: CollidingGrains,
+        /// The grains at rest.
+        bed: TwoFluidBed,
+        /// Geometry and drive.
+        flow: TwoFluidFlow,
+        /// The model.
+        model: TwoFluidModel,
+        /// Laws.
+        closures: TwoFluidClosures,
+        /// Small numbers.
+        #[serde(default)]
+        regularisation: TwoFluidRegularisation,
+        /// Cells of the column.
+        #[serde(default)]
+        grid: TwoFluidGrid,
+        /// The flow in time.
+        #[serde(default)]
+        solver: TwoFluidSolver,
     }
     /// A bed of spheres with friction, grain by grain, at rest or down a slope.
     GrainsBed ("grains") {

@@ -19,6 +19,14 @@ pub static CASES: &[(&str, &str)] = shipped![
     "coupled_3d_chassagne_quick",
     "coupled_3d_shields",
     "coupled_3d_shields_quick",
+    "coupled_3d_theta02",
+    "coupled_3d_theta02_quick",
+    "coupled_3d_theta04",
+    "coupled_3d_theta04_quick",
+    "coupled_3d_theta08",
+    "coupled_3d_theta08_quick",
+    "coupled_3d_theta10",
+    "coupled_3d_theta10_quick",
     "exact_1d_aussillous",
     "exact_1d_bagnold",
     "exact_1d_bingham",
@@ -33,6 +41,29 @@ pub static CASES: &[(&str, &str)] = shipped![
     "impact_1d_headon_tension",
     "impact_2d_oblique",
     "impact_2d_spinning",
+    "kinetic_1d_d3",
+    "kinetic_1d_d9",
+    "kinetic_1d_e03",
+    "kinetic_1d_e05",
+    "kinetic_1d_e09",
+    "kinetic_1d_mu00",
+    "kinetic_1d_mu01",
+    "kinetic_1d_mu02",
+    "kinetic_1d_mu06",
+    "kinetic_1d_mu08",
+    "kinetic_1d_mu15",
+    "kinetic_1d_r1375",
+    "kinetic_1d_r175",
+    "kinetic_1d_r40",
+    "kinetic_1d_settling",
+    "kinetic_1d_settling_oil",
+    "kinetic_1d_start",
+    "kinetic_1d_theta02",
+    "kinetic_1d_theta04",
+    "kinetic_1d_theta06",
+    "kinetic_1d_theta08",
+    "kinetic_1d_theta10",
+    "kinetic_1d_waves",
     "laminar_1d_aussillous",
     "laminar_1d_muiv",
     "laminar_1d_ouriemi",
@@ -61,6 +92,7 @@ pub static CASES: &[(&str, &str)] = shipped![
     "trial_2d_rolling",
     "trial_3d_cluster",
     "trial_3d_ledger",
+    "two_fluid_1d_avalanche",
 ];
 
 /// Content of the shipped case of that name.
@@ -71,7 +103,11 @@ pub fn find(name: &str) -> Option<&'static str> {
 
 /// Names of the shipped cases that take less than a second or so: the others follow many grains for long.
 pub fn quick() -> impl Iterator<Item = &'static str> {
-    names().filter(|name| !["grains_", "coupled_"].iter().any(|long| name.starts_with(long)))
+    names().filter(|name| {
+        !["grains_", "coupled_", "kinetic_1d_settling", "kinetic_1d_start", "section_3d_"]
+            .iter()
+            .any(|long| name.starts_with(long))
+    })
 }
 
 /// Names of the shipped cases.

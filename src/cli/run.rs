@@ -77,6 +77,7 @@ impl Run {
             total_s: start.elapsed().as_secs_f64(),
             peak_memory_mb: peak_memory_mb(),
             work_units: problem.cells as f64,
+            ..Cost::default()
         };
         let written = match &result {
             Ok(outcome) => write_outcome(folder, summary, &problem, outcome, cost, self.png)?,
@@ -208,6 +209,9 @@ fn trust(summary: &Summary) -> String {
         (Some(error), _) => format!("{:+.2e} by the regularisation", error),
         (None, Some(lambda)) if lambda > 0.0 => "regularised".into(),
         (None, Some(_)) => "exact yield".into(),
+        (None, None) if summary.regularisation.contains_key("granular_temperature_m2_s2") => {
+            "order 2 in its cells".into()
+        }
         (None, None) => "closed form, exact to round-off".into(),
     }
 }
@@ -218,6 +222,7 @@ const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
     &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
+    &[&quantity::LAYER_THICKNESS, &quantity::TEMPERATURE_MAX, &quantity::GROWTH_RATE],
     &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],
     &[&quantity::BINGHAM, &quantity::HALF_PLUG, &quantity::PLUG_VELOCITY],
     &[&quantity::PHI_BULK, &quantity::BED_LEVEL, &quantity::COORDINATION],

@@ -6,9 +6,11 @@
 
 pub mod contact;
 pub mod dilatancy;
+pub mod dispersion;
 pub mod drag;
 pub mod fluctuation;
 pub mod friction;
+pub mod kinetic;
 pub mod lid;
 pub mod mixing_length;
 pub mod mixture_viscosity;
@@ -98,6 +100,7 @@ pub static CATALOGUE: &[&Info] = &[
     &mixing_length::none::INFO,
     &mixing_length::prandtl::INFO,
     &mixing_length::li_sawamoto::INFO,
+    &mixing_length::low_submergence::INFO,
     &suspension::NONE,
     &suspension::rouse::INFO,
     &lid::FREE_SURFACE,
@@ -110,6 +113,24 @@ pub static CATALOGUE: &[&Info] = &[
     &side_wall::graf_altinakar::INFO,
     &side_wall::blasius::INFO,
     &contact::linear_spring::INFO,
+    &kinetic::garzo_dufty::INFO,
+    &kinetic::granular::FRICTIONAL_COLLISIONAL,
+    &kinetic::inertial::INFO,
+    &kinetic::radial::CARNAHAN_STARLING,
+    &kinetic::radial::TORQUATO,
+    &kinetic::radial::CHIALVO_SUNDARESAN,
+    &kinetic::radial::FRICTIONAL,
+    &kinetic::restitution::PLAIN,
+    &kinetic::restitution::JENKINS_ZHANG,
+    &kinetic::saltation::INFO,
+    &kinetic::drag_work::LINEAR,
+    &kinetic::drag_work::QUADRATIC,
+    &kinetic::elastic::NONE,
+    &kinetic::elastic::JOHNSON_JACKSON,
+    &kinetic::static_friction::FIT,
+    &kinetic::static_friction::GIVEN,
+    &dispersion::NONE,
+    &dispersion::GRADIENT,
 ];
 
 #[cfg(test)]

@@ -55,6 +55,11 @@ const UNITS: &[(&str, [i32; 3], &str)] = &[
     ("kg/(m s)", [1, -1, 1], "τ(hₚ) H/Uₘ"),
     ("s", [1, -1, 0], "H/Uₘ"),
     ("J", [3, 0, 1], "τ(hₚ) H³"),
+    ("m²", [2, 0, 0], "H²"),
+    ("m³/s", [2, 1, 0], "Uₘ H²"),
+    ("kg/s", [2, -1, 1], "τ(hₚ) H²/Uₘ"),
+    ("W/m³", [-1, 1, 1], "τ(hₚ) Uₘ/H"),
+    ("W/m²", [0, 1, 1], "τ(hₚ) Uₘ"),
 ];
 
 /// How a unit of the catalogue is written when it is divided: `Uₘ` for `m/s`.

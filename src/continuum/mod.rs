@@ -6,3 +6,4 @@ pub mod laminar;
 pub mod sheet_flow;
 #[cfg(test)]
 mod tests;
+pub mod two_fluid;

@@ -2,11 +2,14 @@
 //!
 //! Means of a slice are weighted with the volume that each sphere has in it (Maurin et al. 2015, eq. A1). The stress is
 //! σ = -ρ_p φ <v'v'> - (1/V) Σ f b (Chassagne et al. 2023, eq. 2.27), b the branch of a contact, spread over the slices that it crosses.
+//! The flux of fluctuation energy is q = (1/2) ρ_p φ <w' v'^2> - (1/V) Σ f·v' b_z with the mean velocity of both grains (2.28);
+//! what a contact takes, -(1/2) f·(v_p - v_q) of each grain (2.29), and the work of the drag f_D·v' (2.30) are spread over the grains.
 
 use std::f64::consts::PI;
 
 use super::checkpoint::Saved;
 use super::engine::Engine;
+use super::grains::Point;
 use super::law::ContactLaw;
 
 /// Volume of the part of a sphere of radius `r` around 0 that lies between `low` and `high` [m3].
@@ -23,8 +26,34 @@ struct Block {
     samples: f64,
     volume: Vec<f64>,
     momentum: Vec<[f64; 3]>,
-    squares: Vec<[f64; 4]>,
-    contact: Vec<[f64; 2]>,
+    /// u², v², w², u w, v w, w |v|²
+    squares: Vec<[f64; 6]>,
+    /// force of contacts along x (against the flow), z and y, and its power
+    contact: Vec<[f64; 4]>,
+    /// drag, its power, and the power that contacts take
+    taken: Vec<[f64; 5]>,
+}
+
+impl Block {
+    /// Mean velocity in a slice [m/s].
+    fn velocity(&self, s: usize) -> Point {
+        self.momentum[s].map(|m| m / self.volume[s])
+    }
+
+    /// Flux of fluctuation energy upward times the volume of the samples.
+    fn flux(&self, s: usize, density: f64) -> f64 {
+        let ([u, v, w], [uu, vv, ww, uw, vw, third]) = (self.velocity(s), self.squares[s].map(|x| x / self.volume[s]));
+        let speed = u * u + v * v + w * w;
+        let fluctuating = third - 2.0 * (u * uw + v * vw + w * ww) - w * (uu + vv + ww) + 2.0 * w * speed;
+        let [x, z, y, power] = self.contact[s];
+        0.5 * density * self.volume[s] * fluctuating + power + u * x - v * y - w * z
+    }
+
+    /// What the drag takes from the fluctuations times the volume of the samples.
+    fn drag_loss(&self, s: usize) -> f64 {
+        let ([u, v, w], [x, y, z, power, _]) = (self.velocity(s), self.taken[s]);
+        u * x + v * y + w * z - power
+    }
 }
 
 /// Profiles over time, in blocks.
@@ -55,6 +84,12 @@ pub struct Averaged {
     pub shear: Vec<Mean>,
     /// normal stress [Pa]
     pub pressure: Vec<Mean>,
+    /// flux of fluctuation energy upward [W/m2]
+    pub flux: Vec<Mean>,
+    /// what the drag takes from the fluctuations [W/m3]
+    pub drag_loss: Vec<Mean>,
+    /// what contacts take from the motion of the centres [W/m3]
+    pub contact_loss: Vec<Mean>,
 }
 
 impl Averages {
@@ -78,8 +113,9 @@ impl Averages {
             samples: 0.0,
             volume: vec![0.0; slices],
             momentum: vec![[0.0; 3]; slices],
-            squares: vec![[0.0; 4]; slices],
-            contact: vec![[0.0; 2]; slices],
+            squares: vec![[0.0; 6]; slices],
+            contact: vec![[0.0; 4]; slices],
+            taken: vec![[0.0; 5]; slices],
         };
         let blocks = vec![block; blocks.max(1)];
         Self { bottom, thickness, slice_volume, density, blocks }
@@ -91,31 +127,31 @@ impl Averages {
         Self { blocks: self.blocks.iter().skip(first).cloned().collect(), ..self.clone() }
     }
 
-    /// Adds the present state to block `block`.
-    pub fn sample<C: ContactLaw>(&mut self, engine: &Engine<C>, block: usize) {
+    /// Each block that has samples as a profile of its own.
+    #[must_use]
+    pub fn each(&self) -> Vec<Averaged> {
+        let used = self.blocks.iter().filter(|b| b.samples > 0.0);
+        used.map(|block| Self { blocks: vec![block.clone()], ..*self }.profile()).collect()
+    }
+
+    /// Adds the present state to block `block`; `drag` is the force of the fluid on a grain by its place [N].
+    pub fn sample<C: ContactLaw>(&mut self, engine: &Engine<C>, block: usize, drag: impl Fn(usize) -> Point) {
         let (bottom, thickness) = (self.bottom, self.thickness);
         let last = self.blocks.len() - 1;
-        let Block { samples, volume, momentum, squares, contact } = &mut self.blocks[block.min(last)];
+        let Block { samples, volume, momentum, squares, contact, taken } = &mut self.blocks[block.min(last)];
         *samples += 1.0;
         let slices = volume.len();
         let index = |z: f64| ((z - bottom) / thickness).clamp(0.0, slices as f64) as usize;
         let grains = engine.grains();
-        for i in 0..grains.len() {
-            let (r, [_, _, z]) = (grains.radius(i), grains.position(i));
-            let [u, v, w] = grains.velocity(i);
-            for s in index(z - r)..(index(z + r) + 1).min(slices) {
-                let low = bottom + s as f64 * thickness - z;
-                let part = slice_volume(r, low, low + thickness);
-                volume[s] += part;
-                for (sum, x) in momentum[s].iter_mut().zip([u, v, w]) {
-                    *sum += part * x;
-                }
-                for (sum, x) in squares[s].iter_mut().zip([u * u, v * v, w * w, u * w]) {
-                    *sum += part * x;
-                }
-            }
-        }
+        let dot = |a: Point, b: Point| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let mut lost = vec![0.0; grains.len()];
         for seen in engine.contacts() {
+            let (first, second) = (grains.velocity(seen.first), seen.second.map_or([0.0; 3], |j| grains.velocity(j)));
+            let half = 0.5 * (dot(seen.force, first) - dot(seen.force, second));
+            lost[seen.first] += half;
+            if let Some(j) = seen.second {
+                lost[j] += half;
+            }
             let z = grains.position(seen.first)[2];
             let rise = seen.normal[2] * seen.distance;
             let (low, high) = if rise > 0.0 { (z, z + rise) } else { (z + rise, z) };
@@ -124,13 +160,40 @@ impl Averages {
                 continue;
             }
             let sign = if rise > 0.0 { 1.0 } else { -1.0 };
+            let power = 0.5 * (dot(seen.force, first) + dot(seen.force, second));
+            let carried = [-seen.force[0], seen.force[2], seen.force[1], power];
             let crossed = index(low)..(index(high) + 1).min(slices);
             for (s, sums) in contact[crossed.clone()].iter_mut().enumerate().map(|(n, sums)| (n + crossed.start, sums))
             {
                 let from = bottom + s as f64 * thickness;
                 let length = (high.min(from + thickness) - low.max(from)).max(0.0);
-                sums[0] -= sign * seen.force[0] * length;
-                sums[1] += sign * seen.force[2] * length;
+                for (sum, x) in sums.iter_mut().zip(carried) {
+                    *sum += sign * x * length;
+                }
+            }
+        }
+        for i in 0..grains.len() {
+            let (r, [_, _, z]) = (grains.radius(i), grains.position(i));
+            let velocity = grains.velocity(i);
+            let [u, v, w] = velocity;
+            let push = if grains.is_fixed(i) { [0.0; 3] } else { drag(i) };
+            let per_volume = 3.0 / (4.0 * PI * r * r * r);
+            let takes = [push[0], push[1], push[2], dot(push, velocity), lost[i]].map(|x| per_volume * x);
+            for s in index(z - r)..(index(z + r) + 1).min(slices) {
+                let low = bottom + s as f64 * thickness - z;
+                let part = slice_volume(r, low, low + thickness);
+                volume[s] += part;
+                for (sum, x) in momentum[s].iter_mut().zip([u, v, w]) {
+                    *sum += part * x;
+                }
+                for (sum, x) in
+                    squares[s].iter_mut().zip([u * u, v * v, w * w, u * w, v * w, w * dot(velocity, velocity)])
+                {
+                    *sum += part * x;
+                }
+                for (sum, x) in taken[s].iter_mut().zip(takes) {
+                    *sum += part * x;
+                }
             }
         }
     }
@@ -162,6 +225,10 @@ impl Averages {
             profile.temperature.push(mean(&|b| filled(&b).then(|| temperature(b))));
             profile.shear.push(mean(&|b| Some(b.contact[s][0] / per(b) - kinetic(b, 0, 2, 3))));
             profile.pressure.push(mean(&|b| Some(b.contact[s][1] / per(b) + kinetic(b, 2, 2, 2))));
+            // Of the mean velocity only what the slice has: it moves with its grains.
+            profile.flux.push(mean(&|b| filled(&b).then(|| b.flux(s, self.density) / per(b))));
+            profile.drag_loss.push(mean(&|b| filled(&b).then(|| b.drag_loss(s) / per(b))));
+            profile.contact_loss.push(mean(&|b| Some(b.taken[s][4] / per(b))));
         }
         profile
     }
@@ -176,13 +243,14 @@ impl Saved for Averages {
             all.extend(block.momentum.iter_mut().flatten());
             all.extend(block.squares.iter_mut().flatten());
             all.extend(block.contact.iter_mut().flatten());
+            all.extend(block.taken.iter_mut().flatten());
         }
         all
     }
 }
 
 /// Mean of blocks and its standard error; 0 where there is one block only.
-fn mean(values: impl Iterator<Item = f64>) -> Mean {
+pub(super) fn mean(values: impl Iterator<Item = f64>) -> Mean {
     let values: Vec<f64> = values.collect();
     let n = values.len() as f64;
     if values.is_empty() {

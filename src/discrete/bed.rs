@@ -225,7 +225,7 @@ impl<'a> Run<'a> {
     }
 
     fn sample(&mut self, block: usize) {
-        self.averages.sample(&self.engine, block);
+        self.averages.sample(&self.engine, block, |_| [0.0; 3]);
         self.means.sample(&self.engine, self.bed);
     }
 

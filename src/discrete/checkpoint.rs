@@ -14,7 +14,7 @@ use crate::numerics::sum::Sum;
 
 const MAGIC: &[u8; 8] = b"bedload\x01";
 /// Version of the layout.
-pub const VERSION: u32 = 2;
+pub const VERSION: u32 = 3;
 const HEAD: usize = 8 + 4 + 32 + 8;
 const DIGEST: usize = 32;
 

@@ -10,6 +10,7 @@
 pub mod average;
 pub mod bed;
 pub mod body;
+pub mod budget;
 pub mod cells;
 pub mod checkpoint;
 pub mod contacts;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::folder::{FIGURES, Folder, OutputError, holds_only, read_summary};
-use super::run::draw_png;
+use super::folder::{FIGURES, Folder, OutputError, holds_only};
+use super::run::{draw_png, read_summary};
 use super::study;
 use crate::compare::{Comparison, Request};
 use crate::result::{Cost, Provenance, Status};

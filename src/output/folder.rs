@@ -5,8 +5,9 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use super::grains::{CHECKPOINT, is_frame, is_partial};
+use super::run::read_summary;
 use super::{comparison, study};
-use crate::result::{Status, Summary};
+use crate::result::Status;
 
 /// Files that a run folder may hold; anything else in it is not ours.
 pub(super) const OURS: &[&str] = &[
@@ -396,12 +397,4 @@ pub(super) fn entries(folder: &Path) -> io::Result<Vec<(String, bool)>> {
             Ok((entry.file_name().to_string_lossy().into_owned(), entry.file_type()?.is_dir()))
         })
         .collect()
-}
-
-/// The summary of a run folder; anything that is not one is foreign.
-pub(super) fn read_summary(folder: &Path) -> Result<Summary, OutputError> {
-    let foreign = |entry: &str| OutputError::Foreign { folder: folder.into(), entry: entry.into() };
-    let path = folder.join("summary.json");
-    let text = fs::read_to_string(&path).map_err(|_| foreign("no summary.json"))?;
-    serde_json::from_str(&text).map_err(|_| foreign("a summary.json of something else"))
 }

@@ -184,7 +184,8 @@ fn draw(
     case: &str,
     png: bool,
 ) -> Result<Vec<PathBuf>, OutputError> {
-    let figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
+    let mut figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
+    figures.extend(profile.map(|p| plot::judge_figures(p, problem)).unwrap_or_default());
     let page = {
         let (equations, notes) = (crate::equations(problem), [problem.title.clone()]);
         let picture = picture(place, summary);
@@ -250,6 +251,14 @@ fn draw_one(
         return Err(OutputError::Interrupted { path: place.join(&name), error });
     }
     Ok(shown.join(&name))
+}
+
+/// The summary of a run folder; anything that is not one is foreign.
+pub(super) fn read_summary(folder: &Path) -> Result<Summary, OutputError> {
+    let foreign = |entry: &str| OutputError::Foreign { folder: folder.into(), entry: entry.into() };
+    let path = folder.join("summary.json");
+    let text = fs::read_to_string(&path).map_err(|_| foreign("no summary.json"))?;
+    serde_json::from_str(&text).map_err(|_| foreign("a summary.json of something else"))
 }
 
 /// The summary and the profile of a run, from its folder.

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::comparison;
-use super::folder::{self, FIGURES, Folder, Mode, OutputError, entries, holds_only, read_summary};
-use super::run::draw_png;
+use super::folder::{self, FIGURES, Folder, Mode, OutputError, entries, holds_only};
+use super::run::{draw_png, read_summary};
 use crate::plot::Figure;
 use crate::result::Status;
 

@@ -42,6 +42,7 @@ pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
         figures.push(scene.figure("turbulence", turbulence, scene.elevation()));
     }
     figures.extend(super::sheet::sheet_figures(profile, summary));
+    figures.extend(super::kinetic::kinetic_figures(profile, summary));
     if scene.is_logarithmic()
         && let Some(velocities) = scene.velocities()
     {

@@ -6,6 +6,7 @@ mod grains;
 mod others;
 mod section;
 mod sheet;
+mod two_fluid;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
@@ -14,6 +15,7 @@ pub use grains::{GrainBed, Impact, Trial};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 pub use section::{CavityFlow, Contents, DuctFlow, Method, Outline, SectionMethod};
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
+pub use two_fluid::{FluidStress, State, TwoFluid};
 
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;
@@ -50,6 +52,8 @@ pub enum Model {
     Bingham(RegularisedPlane),
     /// two-layer sheet flow
     SheetFlow(SheetFlow),
+    /// grains and fluid as two fluids
+    TwoFluid(TwoFluid),
     /// flow along a duct, in its cross-section
     Duct(DuctFlow),
     /// flow in a cavity under a sliding lid
@@ -111,6 +115,9 @@ impl Problem {
             Scene::Bingham(scene) => (others::bingham(scene, &mut faults).map(Model::Bingham), scene.grid.cells),
             Scene::SheetFlow(scene) => {
                 (sheet::sheet_flow(scene, case.model, &mut faults).map(Model::SheetFlow), scene.grid.cells)
+            }
+            Scene::TwoFluid(scene) => {
+                (two_fluid::two_fluid(scene, case.model, &mut faults).map(Model::TwoFluid), scene.grid.cells)
             }
             Scene::Duct(scene) => (section::duct(scene, &mut faults).map(Model::Duct), scene.grid.cells),
             Scene::DuctBed(scene) => (section::bed(scene, case.model, &mut faults).map(Model::Duct), scene.grid.cells),

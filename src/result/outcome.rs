@@ -126,6 +126,30 @@ pub enum SolveError {
         /// iterations made
         iterations: usize,
     },
+    /// A two-fluid flow that no way of the method leads to.
+    #[error(
+        "no steady flow was found at a Shields number of {shields:.4}: the smallest residual is {residual:.3e} after {iterations} iterations"
+    )]
+    NoSteadyFlow {
+        /// smallest residual of the steady equations
+        residual: f64,
+        /// iterations made, of all ways
+        iterations: usize,
+        /// nominal Shields number
+        shields: f64,
+    },
+    /// A flow in time that cannot go on.
+    #[error(
+        "stuck at t = {time_s:.6} s: no step is short enough, the last one was {step_s:.3e} s with the residual {residual:.3e}"
+    )]
+    StuckInTime {
+        /// simulated time [s]
+        time_s: f64,
+        /// last step [s]
+        step_s: f64,
+        /// residual of the step, or its error
+        residual: f64,
+    },
     /// A convex minimum that the method does not find.
     #[error(
         "the {method} method ends {change:.3e} (relative) from its goal after {iterations} iterations, at lambda = {lambda_1_s:.3e} 1/s"
@@ -209,6 +233,8 @@ impl SolveError {
             Self::OutOfReach { .. } => "out-of-reach",
             Self::NoRoot { .. } => "no-root",
             Self::NotConverged { .. } => "not-converged",
+            Self::NoSteadyFlow { .. } => "no-steady-flow",
+            Self::StuckInTime { .. } => "stuck-in-time",
             Self::Unsettled { .. } => "unsettled",
             Self::NotFinite { .. } => "not-finite",
             Self::NotRepresentable { .. } => "not-representable",
@@ -234,6 +260,10 @@ impl SolveError {
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
             Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),
+            Self::NoSteadyFlow { .. } => {
+                "follow it in time (model.state = \"transient\"): near the threshold of motion the flow may have no steady state".into()
+            }
+            Self::StuckInTime { .. } => "the flow until then is kept; take more cells (grid.cells) or a larger solver.tolerance".into(),
             Self::NotFinite { .. } | Self::NotRepresentable { .. } | Self::Unbalanced { .. } => {
                 "a value of the case is far from those of any flow: case.toml has all of them in SI".into()
             }

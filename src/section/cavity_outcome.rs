@@ -12,7 +12,7 @@ use super::{dual, newton};
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::problem::{CavityFlow, Method};
 use crate::result::{
-    Balance, Failure, Outcome, Profile, Results, Series, Snapshot, SolveError, Status, TableError, Watch, quantity as q,
+    Balance, Failure, Outcome, Profile, Results, Snapshot, SolveError, Status, TableError, Watch, quantity as q,
 };
 use crate::units::significant;
 

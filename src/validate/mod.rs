@@ -140,6 +140,7 @@ pub fn markdown(rows: &[Row]) -> String {
         let kind = match row.check.kind {
             CheckKind::Verification => "verification",
             CheckKind::Validation => "validation",
+            CheckKind::Regression => "regression",
             CheckKind::Finding => "finding",
         };
         let tier = if row.check.tier == Tier::Full { " (full)" } else { "" };

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use bedload::case::{Case, CaseError};
 use bedload::plot::{Page, profile_figures, report_html};
-use bedload::problem::{Model, Problem};
+use bedload::problem::{Model, Problem, State};
 use bedload::result::{Cost, Outcome, Provenance, Quiet, Summary};
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use serde_json::Map;
@@ -126,8 +126,9 @@ fn hold(tally: &Tally, Input { text, overrides }: &Input) -> Result<(), TestCase
     let resolved = case.resolved();
     let again = Case::parse("case", "case.toml", resolved.clone(), &[]);
     require!(again.is_ok_and(|again| again.resolved() == resolved), "does not resolve to itself:\n{resolved}");
-    // A run that follows grains takes as long as its case says: it is held up to its start.
-    if matches!(problem.model, Model::Grains(_) | Model::Coupled(_) | Model::Trial(_)) {
+    // A run that follows grains, or a flow in time, takes as long as its case says: it is held up to its start.
+    let in_time = matches!(problem.model, Model::TwoFluid(flow) if flow.state == State::Transient);
+    if in_time || matches!(problem.model, Model::Grains(_) | Model::Coupled(_) | Model::Trial(_)) {
         count(&tally.followed);
         require!(!bedload::equations(&problem).contains("NaN"), "NaN in the equations");
         return Ok(());

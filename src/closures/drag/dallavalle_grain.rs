@@ -17,6 +17,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::closures::{Info, Range, Standing};
+use crate::numerics::dual::Real;
 
 /// The part of `C_D` that is inverse to the Reynolds number.
 const VISCOUS: f64 = 24.4;
@@ -82,6 +83,15 @@ impl DallavalleGrain {
     pub fn rate(&self, speed: f64, viscous: f64) -> f64 {
         self.constant * speed + viscous
     }
+
+    /// `K d/rho_f` [m/s] and `C_inf/C_D` of the drag per volume `n f = phi (1 - phi) K w`, with
+    /// `K = (3/4)(rho_f/d) C_D |w| (1 - phi)^(-n - 1)`: eq. (2.9)-(2.11) of Chassagne et al. (2023).
+    #[must_use]
+    pub fn per_volume<T: Real>(&self, phi: T, speed: T, viscous: f64) -> (T, T) {
+        let fast = speed * self.constant;
+        let whole = fast + viscous;
+        ((-phi + 1.0).powf(-self.exponent - 1.0) * whole * 0.75, fast / whole)
+    }
 }
 
 #[cfg(test)]
@@ -114,5 +124,14 @@ mod tests {
         assert_relative_eq!(drag(-0.1, 0.0, 6e-3), -drag(0.1, 0.0, 6e-3));
         // Hindrance: 0.5^-3.1 = 8.574188.
         assert_relative_eq!(drag(0.1, 0.5, 6e-3) / drag(0.1, 0.0, 6e-3), 8.574_187_7, max_relative = 1e-8);
+    }
+    #[test]
+    fn drag_per_volume_is_that_of_the_grains_in_it() {
+        let (phi, w, d): (f64, f64, f64) = (0.3, 0.2, 6e-3);
+        let (k, share) = LAW.per_volume(phi, w, LAW.viscous(1e-6, d));
+        let grains = phi / (PI / 6.0 * d.powi(3));
+        assert_relative_eq!(phi * (1.0 - phi) * k * 1000.0 / d * w, grains * drag(w, phi, d), max_relative = 1e-13);
+        // Re = 1200: 0.4/(0.4 + 24.4/1200).
+        assert_relative_eq!(share, 0.951_625_7, max_relative = 1e-6);
     }
 }

@@ -24,6 +24,7 @@ use serde::{Deserialize, Serialize};
 
 use super::karman;
 use crate::closures::{Info, Range, Standing};
+use crate::numerics::dual::Real;
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
@@ -44,6 +45,9 @@ pub enum BelowPacked {
     Published,
     /// No turbulence below the highest cell that reaches phi_max, as in the published code.
     Zero,
+    /// The integral from the bottom, in which a packed layer counts as nothing and not as less: the reading of the kinetic
+    /// model of Chassagne et al. (2023).
+    Clipped,
 }
 
 /// Grains below damp the turbulence above.
@@ -62,11 +66,18 @@ pub struct LiSawamoto {
 }
 
 impl LiSawamoto {
+    /// What a layer of the solid fraction `phi` adds to the integral, per height.
+    #[must_use]
+    pub fn clearance<T: Real>(&self, phi: T) -> T {
+        let clear = (-phi + self.phi_max) / self.phi_max;
+        if self.below_packed == BelowPacked::Clipped && clear.value() < 0.0 { T::constant(0.0) } else { clear }
+    }
+
     /// Mixing lengths [m] at the `faces` [m], for the solid fractions `phi` of the cells between them.
     /// `lengths` has one entry per face, `phi` one fewer.
     pub fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]) {
         let packed = match self.below_packed {
-            BelowPacked::Published => 0,
+            BelowPacked::Published | BelowPacked::Clipped => 0,
             // The highest packed cell itself counts as it is: a fraction of exactly phi_max adds nothing.
             BelowPacked::Zero => phi.iter().rposition(|&phi| phi >= self.phi_max).unwrap_or(0),
         };
@@ -76,7 +87,7 @@ impl LiSawamoto {
         }
         for (i, ((pair, &phi), length)) in faces.windows(2).zip(phi).zip(lengths.iter_mut().skip(1)).enumerate() {
             if i >= packed {
-                integral += (self.phi_max - phi) / self.phi_max * (pair[1] - pair[0]);
+                integral += self.clearance(phi) * (pair[1] - pair[0]);
             }
             *length = self.kappa * f64::max(integral, 0.0);
         }

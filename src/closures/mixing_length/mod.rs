@@ -1,6 +1,7 @@
 //! Turbulence by a mixing length: `R_xz = rho_f l_m^2 |du/dz| du/dz`.
 
 pub mod li_sawamoto;
+pub mod low_submergence;
 pub mod none;
 pub mod prandtl;
 
@@ -8,7 +9,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Info;
+use crate::numerics::dual::Real;
 pub use li_sawamoto::{BelowPacked, LiSawamoto};
+pub use low_submergence::LowSubmergence;
 pub use prandtl::Prandtl;
 
 /// Law of the mixing length.
@@ -22,6 +25,8 @@ pub enum MixingLength {
     Prandtl(Prandtl),
     /// Grains below damp the turbulence above.
     LiSawamoto(LiSawamoto),
+    /// Eddies between the grains of a shallow flow.
+    LowSubmergence(LowSubmergence),
 }
 
 impl MixingLength {
@@ -35,7 +40,30 @@ impl MixingLength {
                 faces.iter().zip(lengths).for_each(|(z, length)| *length = law.length(z - wall));
             }
             Self::LiSawamoto(law) => law.fill(faces, phi, lengths),
+            Self::LowSubmergence(law) => law.fill(phi, lengths),
         }
+    }
+
+    /// What a layer of the solid fraction `phi` adds to the integral behind the mixing length, per height; 0 for a local law.
+    #[must_use]
+    pub fn clearance<T: Real>(&self, phi: T) -> T {
+        match self {
+            Self::None | Self::LowSubmergence(_) => T::constant(0.0),
+            Self::Prandtl(_) => T::constant(1.0),
+            Self::LiSawamoto(law) => law.clearance(phi),
+        }
+    }
+
+    /// Mixing length [m] for the integral of [`Self::clearance`] from the wall [m] and the solid fraction `phi` there.
+    #[must_use]
+    pub fn length<T: Real>(&self, integral: T, phi: T) -> T {
+        let kappa = match self {
+            Self::None => 0.0,
+            Self::Prandtl(law) => law.kappa,
+            Self::LiSawamoto(law) => law.kappa,
+            Self::LowSubmergence(law) => return law.length(phi),
+        };
+        if integral.value() > 0.0 { integral * kappa } else { T::constant(0.0) }
     }
 
     /// Catalogue entry of the law.
@@ -45,6 +73,7 @@ impl MixingLength {
             Self::None => &none::INFO,
             Self::Prandtl(_) => &prandtl::INFO,
             Self::LiSawamoto(_) => &li_sawamoto::INFO,
+            Self::LowSubmergence(_) => &low_submergence::INFO,
         }
     }
 }
@@ -69,5 +98,27 @@ mod tests {
         assert_eq!(fill(MixingLength::None), [0.0; 3]);
         assert_eq!(fill(MixingLength::Prandtl(Prandtl { kappa: 0.4 })), [0.0, 0.2, 0.8]);
         assert_eq!(fill(MixingLength::LiSawamoto(clear)), [0.0, 0.2, 0.8]);
+    }
+
+    #[test]
+    fn cell_by_cell_is_the_same_as_all_at_once() {
+        let (faces, phi) = ([0.0, 1.0, 2.0, 4.0, 5.0], [0.63, 0.615, 0.3, 0.0]);
+        let published = LiSawamoto { kappa: 0.41, phi_max: 0.61, below_packed: BelowPacked::Published };
+        for law in [
+            MixingLength::None,
+            MixingLength::Prandtl(Prandtl { kappa: 0.41 }),
+            MixingLength::LiSawamoto(published),
+            MixingLength::LiSawamoto(LiSawamoto { below_packed: BelowPacked::Clipped, ..published }),
+            MixingLength::LowSubmergence(LowSubmergence { scale: 3.0, least: 0.2, phi_max: 0.635 }),
+        ] {
+            let mut lengths = [f64::NAN; 5];
+            law.fill(&faces, &phi, &mut lengths);
+            let mut integral = 0.0;
+            for f in 1..4 {
+                integral += law.clearance(phi[f - 1]) * (faces[f] - faces[f - 1]);
+                let found = law.length(integral, 0.5 * (phi[f - 1] + phi[f]));
+                assert!((found - lengths[f]).abs() < 1e-15, "{law:?} {found} {}", lengths[f]);
+            }
+        }
     }
 }

@@ -4,6 +4,7 @@ use super::record::Known;
 use super::run::Run;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
 use crate::closures::drag::dallavalle_grain::RANGE as HINDRANCE_RANGE;
+use crate::discrete::budget;
 use crate::discrete::outcome::{bed_level, nothing, profile};
 use crate::discrete::stability;
 use crate::result::{Balance, Outcome, Results, Series, SolveError, Status, Validity, quantity as q};
@@ -15,7 +16,8 @@ use crate::result::{Balance, Outcome, Results, Series, SolveError, Status, Valid
 pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError> {
     let (flow, bed) = (run.flow, &run.flow.bed);
     let (first, over) = run.record.transient();
-    let averaged = run.averages.after(first).profile();
+    let averages = run.averages.after(first);
+    let averaged = averages.profile();
     let fluid = run.record.fluid(first);
     let mut results = Results::default();
     results.set(&q::GRAINS, bed.mobile as f64);
@@ -82,6 +84,12 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
         made.push(&q::TAU_VISCOUS, column(2))?;
         made.push(&q::MIXING_LENGTH, column(3))?;
         made.push(&q::EDDY_VISCOSITY, column(4))?;
+        for (value, error, means) in budget::columns(bed, &averages) {
+            made.push(value, means.iter().map(|mean| mean.map(|(x, _)| x)).collect())?;
+            if let Some(error) = error {
+                made.push(error, means.iter().map(|mean| mean.map(|(_, e)| e)).collect())?;
+            }
+        }
         made.push(&q::U_FLUID_STDERR, errors(0))?;
         made.push(&q::TAU_REYNOLDS_STDERR, errors(1))?;
         table = Some(made);

@@ -295,7 +295,9 @@ impl<'a> Run<'a> {
         let kinetic = self.engine.grains().kinetic_energy();
         let row = [self.time(), block as f64, kinetic, rate, largest, level, speed];
         self.record.sample(row, &self.exchange);
-        self.averages.sample(&self.engine, block);
+        let (grains, felt) = (self.engine.grains(), &self.exchange.felt);
+        let drag = |i: usize| felt.drag(grains.ids[i], grains.position(i)[2], grains.velocity(i)).force;
+        self.averages.sample(&self.engine, block, drag);
     }
 
     pub(super) fn checkpoint(&self) -> Vec<u8> {

@@ -1,0 +1,129 @@
+//! Newton's method on the column at one time.
+
+use super::face::Mobilised;
+use super::laws::Moving;
+use super::state::{Cell, GRAINS, HEAT, LENGTH, LOGIT, SIZE, Unknowns, VOLUME, solid};
+use super::system::{Column, Linear, Memory};
+
+/// A step changes the logit of the solid fraction and the logarithm of the temperature by this much at most.
+const LONGEST: f64 = 2.0;
+
+/// Round-off of a balance of momentum, relative to its terms.
+const ROUND_OFF: f64 = 1e-13;
+
+/// A Newton iteration that went nowhere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stalled {
+    /// smallest residual
+    pub residual: f64,
+    /// iterations made
+    pub iterations: usize,
+}
+
+/// When the iteration ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pace {
+    /// largest change of a scaled unknown after which no step follows
+    pub tolerance: f64,
+    /// largest force that a cell may miss then, in units of the weight of a layer of grains: the velocities of a bed at rest are
+    /// too small to say whether its stresses balance
+    pub force: f64,
+    /// most iterations
+    pub most: usize,
+}
+
+impl Column {
+    /// Solid volume of `state`.
+    #[must_use]
+    pub fn held(&self, state: &[Unknowns]) -> f64 {
+        state.iter().zip(&self.widths).map(|(x, dz)| solid(&self.laws, x) * dz).sum()
+    }
+
+    /// Sets what follows from the other unknowns: volumes and mixing lengths from the solid fractions, and the granular
+    /// temperature from the shear rates where that is what it stands for.
+    pub fn accumulate(&self, state: &mut [Unknowns]) {
+        let mut length = 0.0;
+        for (x, dz) in state.iter_mut().zip(&self.widths) {
+            length += Cell::new(&self.laws, x).clearance * dz;
+            x[LENGTH] = length;
+        }
+        // The inertial rheology has the square of the shear rate for a temperature.
+        if let Moving::Inertial(_) = self.laws.moving {
+            let shear: Vec<f64> = self.shear(state).chain([0.0]).collect();
+            for (x, shear) in state.iter_mut().zip(shear.windows(2)) {
+                let square = 0.5 * (shear[0] * shear[0] + shear[1] * shear[1]);
+                x[HEAT] = (self.laws.floors.temperature + square).ln();
+            }
+        }
+        let mut volume = 0.0;
+        for (x, dz) in state.iter_mut().zip(&self.widths).rev() {
+            x[VOLUME] = volume;
+            volume += solid(&self.laws, x) * dz;
+        }
+    }
+
+    /// Solves for the end of a step, from `state`; the number of iterations and the last residual.
+    ///
+    /// # Errors
+    /// [`Stalled`] if the residual does not fall to `pace.tolerance`.
+    pub fn newton(
+        &self,
+        state: &mut [Unknowns],
+        memory: &Memory,
+        linear: &mut Linear,
+        pace: Pace,
+    ) -> Result<(usize, f64), Stalled> {
+        let mut best = f64::INFINITY;
+        let (rate, velocity) = (self.laws.floors.rate, self.laws.fall().recip());
+        let mut shear: Vec<f64> = self.shear(state).collect();
+        let mut mobilised: Vec<Mobilised> = shear.iter().map(|shear| Mobilised(shear / shear.hypot(rate))).collect();
+        // Inertia over a short time leaves a round-off of its own.
+        let highest = self.widths.iter().copied().fold(0.0, f64::max);
+        let allowed = pace.force.max(ROUND_OFF * memory.rate * self.laws.ratio * velocity * highest);
+        for iteration in 0..pace.most {
+            self.linearise(state, memory, &mobilised, linear);
+            let norm = linear.norm(state);
+            if !norm.is_finite() {
+                return Err(Stalled { residual: best, iterations: iteration });
+            }
+            best = best.min(norm);
+            let Ok(step) = linear.step(state) else { return Err(Stalled { residual: best, iterations: iteration }) };
+            let mut largest: f64 = 0.0;
+            for (x, step) in state.iter_mut().zip(step.as_chunks::<SIZE>().0) {
+                for (k, (value, step)) in x.iter_mut().zip(step).enumerate() {
+                    match k {
+                        VOLUME | LENGTH => {}
+                        LOGIT | HEAT => {
+                            largest = largest.max(step.abs());
+                            *value += step.clamp(-LONGEST, LONGEST);
+                        }
+                        _ => {
+                            largest = largest.max(step.abs());
+                            *value += step * velocity;
+                        }
+                    }
+                }
+            }
+            self.accumulate(state);
+            // By the step itself: the difference of what is left of large velocities is round-off where grains move as one.
+            for (i, (r, from)) in mobilised.iter_mut().zip(&shear).enumerate() {
+                let gain = |i: usize| velocity * step[SIZE * i + GRAINS];
+                let change = match i.checked_sub(1) {
+                    None => gain(0) / (0.5 * self.widths[0]),
+                    Some(j) => (gain(i) - gain(j)) / (0.5 * (self.widths[i] + self.widths[j])),
+                };
+                *r = r.after(*from, change, rate);
+            }
+            shear = self.shear(state).collect();
+            let balanced = || {
+                let missed = self.missed(state, memory, &mobilised);
+                missed.iter().flatten().all(|force| force.abs() <= allowed)
+            };
+            if largest <= pace.tolerance && (pace.force.is_infinite() || balanced()) {
+                linear.mobilised = mobilised;
+                return Ok((iteration + 1, norm));
+            }
+        }
+        Err(Stalled { residual: best, iterations: pace.most })
+    }
+}
