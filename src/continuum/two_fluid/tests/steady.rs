@@ -122,10 +122,15 @@ fn without_shear_nothing_moves_but_what_seeps() {
     let deep = &levels.cells[5];
     assert_relative_eq!(deep.drag, (1.0 - deep.phi) * column.laws.drive[0], max_relative = 1e-3);
     // Contacts carry what the slope drives.
-    let driven: f64 = levels.cells[5..].iter().map(|level| {
-        level.dz * (level.phi * column.laws.ratio + 1.0 - level.phi) * column.laws.drive[0]
-    }).sum();
-    assert_relative_eq!(levels.at(levels.cells[5].z - 0.5 * deep.dz, |level| level.contact).unwrap(), driven, max_relative = 1e-3);
+    let driven: f64 = levels.cells[5..]
+        .iter()
+        .map(|level| level.dz * (level.phi * column.laws.ratio + 1.0 - level.phi) * column.laws.drive[0])
+        .sum();
+    assert_relative_eq!(
+        levels.at(levels.cells[5].z - 0.5 * deep.dz, |level| level.contact).unwrap(),
+        driven,
+        max_relative = 1e-3
+    );
 }
 
 #[test]
