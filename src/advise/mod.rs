@@ -110,6 +110,7 @@ pub fn advise(case: &str, overrides: &[String], tolerance: f64) -> Result<Advice
         Model::Laminar(bed) => Ok(laminar::advise(&scene, &bed.bed, false)),
         Model::SheetFlow(flow) => Ok(turbulent::advise(&scene, &turbulent::of_sheet_flow(flow, &problem))),
         Model::Coupled(flow) => Ok(turbulent::advise(&scene, &turbulent::of_grains(flow))),
+        Model::TwoFluid(flow) => Ok(turbulent::advise(&scene, &turbulent::of_two_fluids(flow))),
         _ => Err(AdviseError::OneModel { model: problem.kind.into() }),
     }
 }

@@ -8,7 +8,7 @@ use crate::closures::contact::LinearSpring;
 use crate::closures::fluctuation::Fluctuation;
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::suspension::Suspension;
-use crate::problem::{Coupled, Problem, SheetFlow, Surface};
+use crate::problem::{Coupled, Problem, SheetFlow, Surface, TwoFluid};
 use crate::result::Quiet;
 use crate::result::quantity as q;
 use crate::units::significant;
@@ -24,6 +24,8 @@ const EDDIES: f64 = 0.1;
 const COLLISIONS: f64 = 0.2;
 /// From here on the bed moves as a sheet.
 const SHEET: f64 = 0.5;
+/// How far two colliding fluids are from the grains at a Shields number of 0.6 (docs/kinetic.md).
+const TWO_FLUIDS: f64 = 0.5;
 /// Layers that a dense continuum needs.
 const MANY: f64 = 6.0;
 /// Solid fraction of a packed bed, and of what moves.
@@ -46,6 +48,8 @@ pub(super) struct Turbulent {
     /// whether a suspension and a viscosity of the mixture are in the case; `None` in a model of grains
     continuum: Option<(bool, bool)>,
     grains: Option<Grains>,
+    /// `kind` of the model of the case
+    kind: &'static str,
 }
 
 /// What only grains have.
@@ -84,6 +88,25 @@ pub(super) fn of_sheet_flow(flow: &SheetFlow, problem: &Problem) -> Turbulent {
             !matches!(flow.viscosity, MixtureViscosity::Clear),
         )),
         grains: None,
+        kind: "sheet-flow",
+    }
+}
+
+pub(super) fn of_two_fluids(flow: &TwoFluid) -> Turbulent {
+    Turbulent {
+        rho_f: flow.rho_f,
+        rho_p: flow.rho_p,
+        nu: flow.eta / flow.rho_f,
+        d: flow.d,
+        g: flow.g,
+        depth: flow.depth,
+        sine: flow.beta.sin(),
+        theta: flow.shields(),
+        mu_s: flow.mu_p,
+        settling: None,
+        continuum: None,
+        grains: None,
+        kind: "two-fluid",
     }
 }
 
@@ -116,6 +139,7 @@ pub(super) fn of_grains(flow: &Coupled) -> Turbulent {
             layers: thickness / bed.d,
             slice: bed.bottom == Bottom::Slice,
         }),
+        kind: "coupled",
     }
 }
 
@@ -182,7 +206,7 @@ impl Turbulent {
             number(
                 "Stokes number ρ_p w_s d/(9 η)",
                 self.rho_p * self.fall() * self.d / (9.0 * self.nu * self.rho_f),
-                { "impacts rebound above about 10".into() },
+                "impacts rebound above about 10".into(),
             ),
         ];
         if let Some(grains) = &self.grains {
@@ -194,17 +218,13 @@ impl Turbulent {
         numbers
     }
 
-    fn least(&self) -> Least {
+    fn least(&self, tolerance: f64) -> Least {
         let theta = significant(self.theta, 3);
-        let mine = |kind: &str| match (kind, &self.grains) {
-            ("sheet-flow", None) | ("coupled", Some(_)) => true,
-            _ => false,
-        };
         let least = |kind: &'static str, template: &'static str, because: String, values: Vec<String>| Least {
             kind,
             because,
             template,
-            overrides: (!mine(kind)).then_some(values),
+            overrides: (kind != self.kind).then_some(values),
         };
         if self.theta < ONSET {
             let because =
@@ -222,6 +242,16 @@ impl Turbulent {
             let because = format!("θ = {theta} > {SHEET} and {} layers move", significant(self.layers(), 2));
             let shields = vec![format!("flow.shields={:?}", self.theta), "flow.slope=".into()];
             return least("sheet-flow", "sheet_1d_type_a", because, [self.matter(), shields, self.heights()].concat());
+        }
+        if self.theta > COLLISIONS && tolerance >= TWO_FLUIDS {
+            let because = format!("θ = {theta}: grains collide, and {} is enough", share(tolerance));
+            let flow = vec![
+                format!("bed.thickness={:?}", 2.5 * self.layers().max(5.0) * self.d),
+                format!("flow.shields={:?}", self.theta),
+                format!("flow.slope={:?}", self.sine),
+                format!("grains.friction={:?}", self.mu_s),
+            ];
+            return least("two-fluid", "kinetic_1d_theta06", because, [self.matter(), flow].concat());
         }
         let because = if self.theta < COLLISIONS {
             format!("θ = {theta} < {COLLISIONS}: single grains move, no continuum holds")
@@ -327,5 +357,5 @@ pub(super) fn advise(scene: &Scene<'_>, flow: &Turbulent) -> Advice {
             });
         }
     }
-    Advice { numbers: flow.numbers(), least: flow.least(), terms }
+    Advice { numbers: flow.numbers(), least: flow.least(scene.tolerance), terms }
 }

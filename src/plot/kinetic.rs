@@ -51,7 +51,7 @@ impl Scene<'_> {
     }
 
     fn curve(name: &str, (colour, dash): (usize, Dash), points: Vec<Option<(f64, f64)>>) -> Curve {
-        Curve { name: name.into(), points, colour, line: Some(dash), marker: None, errors: Vec::new() }
+        Curve { name: name.into(), points, colour, line: Some(dash), ..Curve::default() }
     }
 
     /// Granular temperature, and the budget of the fluctuation energy, over the elevation.

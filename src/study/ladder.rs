@@ -28,6 +28,7 @@ pub(super) fn finest(problem: &Problem) -> Option<(String, Vec<String>)> {
         Model::Laminar(_) | Model::Bingham(_) => fine(4 * cells.max(400), exact_yield()),
         Model::SheetFlow(_) => fine(8 * cells.max(300), newton()),
         Model::Duct(_) | Model::Cavity(_) => fine(128, newton()),
+        Model::TwoFluid(_) => Some(("960 cells".into(), vec!["grid.cells=960".into()])),
         _ => None,
     }
 }
@@ -38,6 +39,7 @@ pub(super) fn rungs(case: Option<&str>, problem: &Problem) -> Vec<Point> {
         Model::Laminar(_) | Model::Bingham(_) => plane(),
         Model::SheetFlow(_) => sheet(),
         Model::Duct(_) | Model::Cavity(_) => section(),
+        Model::TwoFluid(_) => two_fluid(),
         Model::Coupled(flow) => grains(flow.bed.discrete.duration, flow.bed.size, flow.bed.side_walls),
         _ => vec![(problem.kind, "as it stands".into(), Vec::new())],
     };
@@ -102,6 +104,15 @@ fn section() -> Vec<Rung> {
     [exact.to_vec(), dual.to_vec(), regularised(&method, &LAWS[..2], &[12, 24, 48])].concat()
 }
 
+/// The closures of both columns of Chassagne et al. (2023) on some meshes.
+fn two_fluid() -> Vec<Rung> {
+    let law = |law: &'static str| {
+        let set = [format!("closures.granular.law={law}")];
+        [60, 120, 240, 480].map(|cells| with_cells(law, cells, &set)).to_vec()
+    };
+    [law("frictional-collisional"), law("garzo-dufty")].concat()
+}
+
 /// Shorter runs, smaller cells, softer grains, older fluids: from the case itself, one at a time.
 fn grains(duration: f64, [length, width]: [f64; 2], narrow: bool) -> Vec<Rung> {
     let lasting = |share: f64| format!("discrete.duration={}", share * duration);
@@ -160,6 +171,7 @@ mod tests {
         assert_eq!(counts("section_2d_square_bed"), [5, 3, 12, 12]);
         // A quarter of that cell is less than a case may have.
         assert_eq!(counts("coupled_3d_chassagne_quick").iter().sum::<usize>(), 9);
+        assert_eq!(counts("kinetic_1d_theta06"), [4, 4]);
         assert_eq!(counts("exact_1d_ouriemi"), [1]);
     }
 }
