@@ -172,13 +172,13 @@ impl Averages {
                 }
             }
         }
-        for i in 0..grains.len() {
+        for (i, &lost) in lost.iter().enumerate() {
             let (r, [_, _, z]) = (grains.radius(i), grains.position(i));
             let velocity = grains.velocity(i);
             let [u, v, w] = velocity;
             let push = if grains.is_fixed(i) { [0.0; 3] } else { drag(i) };
             let per_volume = 3.0 / (4.0 * PI * r * r * r);
-            let takes = [push[0], push[1], push[2], dot(push, velocity), lost[i]].map(|x| per_volume * x);
+            let takes = [push[0], push[1], push[2], dot(push, velocity), lost].map(|x| per_volume * x);
             for s in index(z - r)..(index(z + r) + 1).min(slices) {
                 let low = bottom + s as f64 * thickness - z;
                 let part = slice_volume(r, low, low + thickness);

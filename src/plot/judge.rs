@@ -26,6 +26,7 @@ const POINTS: usize = 70;
 
 /// A number of the grains and its standard error.
 type Measured = Option<(f64, Option<f64>)>;
+type Seen<'a> = (&'a str, Marker, &'a dyn Fn(usize) -> Measured);
 type Law<'a> = (&'a str, Dash, &'a dyn Fn(usize) -> Option<f64>);
 
 /// The figures of a coupled flow; none of any other.
@@ -142,13 +143,7 @@ impl Judge<'_> {
     }
 
     /// A panel over the solid fraction; none where the run did not keep what it takes.
-    fn panel(
-        &self,
-        (rows, y): (&[usize], &Quantity),
-        x: Axis,
-        grains: &[(&str, Marker, &dyn Fn(usize) -> Measured)],
-        laws: &[Law<'_>],
-    ) -> Option<Panel> {
+    fn panel(&self, (rows, y): (&[usize], &Quantity), x: Axis, grains: &[Seen<'_>], laws: &[Law<'_>]) -> Option<Panel> {
         let every = rows.len().div_ceil(POINTS);
         let mut curves: Vec<Curve> = Vec::new();
         // Lines along the axis, not along the elevation: the solid fraction of a layered bed goes to and fro.

@@ -94,10 +94,11 @@ pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
         points.extend(more);
     }
     let (given, exact) = reference(request, &problem)?;
-    if given.is_none() && exact.is_none() {
-        if let Some((words, overrides)) = ladder::finest(&problem) {
-            points.insert(0, Point { case: None, series: REFERENCE.into(), values: vec![words], overrides });
-        }
+    if given.is_none()
+        && exact.is_none()
+        && let Some((words, overrides)) = ladder::finest(&problem)
+    {
+        points.insert(0, Point { case: None, series: REFERENCE.into(), values: vec![words], overrides });
     }
     let mut options: Vec<(String, String)> = others.iter().map(|case| ("case".into(), case.clone())).collect();
     options.extend(request.quantity.iter().map(|name| ("quantity".into(), name.clone())));
@@ -121,8 +122,11 @@ fn accepted(points: Vec<Point>, case: &str, overrides: &[String]) -> Vec<Point> 
     points.into_iter().filter(fits).collect()
 }
 
+/// A value with its standard error, if a reference has the quantity.
+type Value = Box<dyn Fn(&Quantity) -> Option<(f64, Option<f64>)>>;
+
 /// Numbers of a reference: their place in words, and each with its value and standard error.
-struct Numbers(String, Box<dyn Fn(&Quantity) -> Option<(f64, Option<f64>)>>);
+struct Numbers(String, Value);
 
 /// The reference that was asked for, or the closed form of the scene.
 fn reference(request: &Request, problem: &Problem) -> Result<(Option<Numbers>, Option<Numbers>), StudyError> {
@@ -185,7 +189,7 @@ fn work(row: &Row) -> Option<f64> {
         return Some(grains * lasted / step);
     }
     let iterations = of(&q::ITERATIONS).or(row.iterations.map(|n| n as f64)).unwrap_or(1.0).max(1.0);
-    (row.cost.work_units > 0.0).then(|| row.cost.work_units * iterations)
+    Some(row.cost.work_units * iterations).filter(|work| *work > 0.0)
 }
 
 fn judge(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Judgement {

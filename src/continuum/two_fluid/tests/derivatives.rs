@@ -32,7 +32,7 @@ fn deviation(column: &Column, memory: &Memory) -> f64 {
     let h = 1e-6;
     let (high, low) = (residual(h), residual(-h));
     column.linearise(&state, memory, &mobilised, &mut linear);
-    let exact = linear.times(|i, k| direction(i, k));
+    let exact = linear.times(direction);
     let largest = |row: usize| exact.iter().skip(row).step_by(SIZE).fold(0.0_f64, |m, x| m.max(x.abs()));
     let scales: Vec<f64> = (0..SIZE).map(largest).collect();
     exact
