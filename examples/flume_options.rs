@@ -67,6 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             line: Some([Dash::Solid, Dash::Dashed, Dash::DashDotted, Dash::Dotted][i % 4]),
             marker: Some([Marker::Circle, Marker::Square][i / 4]),
             errors: rates.iter().map(|&[_, error]| Some(error)).collect(),
+            ..Curve::default()
         });
     }
     let figure = Figure {

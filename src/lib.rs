@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!  cases/*.toml ─► case ─► problem ─► closures ─► continuum ─► result ─► output, plot
-//!    (text)      (spans)  (SI, checked)  (laws)                      ─► study, validate: call it many times
+//!    (text)      (spans)  (SI, checked)  (laws)                      ─► study, advise, validate: call it many times
 //! ```
 //!
 //! The drawing shows the data. Imports go only upward in this list, and a test holds every `use crate::` against it:
@@ -19,7 +19,8 @@
 //! | [`plot`] | figures and pages |
 //! | [`compare`] | several runs and measured profiles side by side |
 //! | [`output`] | the folder of a run, of a comparison, of a study |
-//! | [`study`] | one case at many points, in parallel: `converge`, `sweep` |
+//! | [`study`] | one case at many points: `converge`, `sweep`, `chart`, `stability` |
+//! | [`advise`] | the least model that a scene needs |
 //! | [`validate`] | re-runs what the cases claim |
 //! | [`cli`] | the command line, one file per verb |
 //!
@@ -32,6 +33,7 @@
 //! assert!(outcome.results.get("transport_rate_m2_s").unwrap() > 0.0);
 //! ```
 
+pub mod advise;
 pub mod case;
 pub mod cli;
 pub mod closures;

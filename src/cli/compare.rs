@@ -92,6 +92,7 @@ impl Compare {
             total_s: start.elapsed().as_secs_f64(),
             peak_memory_mb: peak_memory_mb(),
             work_units: comparison.subjects.iter().map(|s| s.profile.rows() as f64).sum(),
+            ..Cost::default()
         };
         let figures = write_comparison(folder, &comparison, &request, &cost, &provenance, self.png)?;
         if self.json {

@@ -1,5 +1,7 @@
 //! The command line: one file per verb. Answers go to standard output, everything else to standard error.
 
+mod advise;
+mod chart;
 mod check;
 mod compare;
 mod completions;
@@ -11,6 +13,7 @@ mod progress;
 mod report;
 mod run;
 mod schema;
+mod stability;
 mod study;
 mod sweep;
 mod validate;
@@ -21,6 +24,7 @@ use std::process::ExitCode;
 use clap::{Args, Parser, Subcommand};
 use serde_json::{Value, json};
 
+use crate::advise::AdviseError;
 use crate::case::{Case, CaseError, printable};
 use crate::compare::CompareError;
 use crate::output::OutputError;
@@ -60,6 +64,12 @@ enum Verb {
     Converge(converge::Converge),
     /// Run a case over values of one key, or a grid of several
     Sweep(sweep::Sweep),
+    /// Chart speed against accuracy of the models and settings that answer one scene
+    Chart(chart::Chart),
+    /// Map where a case holds over one key or two, and how it fails beyond
+    Stability(stability::Stability),
+    /// Name the least model that serves a scene, and what in it can go
+    Advise(advise::Advise),
     /// Re-run what the cases claim and write the table
     Validate(validate::Validate),
     /// Print the JSON Schema of case files, for editors
@@ -138,6 +148,15 @@ impl From<StudyError> for CliError {
     }
 }
 
+impl From<AdviseError> for CliError {
+    fn from(error: AdviseError) -> Self {
+        match error {
+            AdviseError::Case(error) => Self::Case(error),
+            other => Self::Usage { message: other.to_string(), hint: "give a case of a flow over grains".into() },
+        }
+    }
+}
+
 impl From<OutputError> for CliError {
     fn from(error: OutputError) -> Self {
         Self::Output(error)
@@ -179,6 +198,9 @@ pub fn execute() -> ExitCode {
         Verb::Compare(verb) => verb.json,
         Verb::Converge(verb) => verb.study.json,
         Verb::Sweep(verb) => verb.study.json,
+        Verb::Chart(verb) => verb.study.json,
+        Verb::Stability(verb) => verb.study.json,
+        Verb::Advise(verb) => verb.json,
         Verb::Validate(verb) => verb.json,
         Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
     };
@@ -192,6 +214,9 @@ pub fn execute() -> ExitCode {
         Verb::Compare(verb) => verb.execute(),
         Verb::Converge(verb) => verb.execute(),
         Verb::Sweep(verb) => verb.execute(),
+        Verb::Chart(verb) => verb.execute(),
+        Verb::Stability(verb) => verb.execute(),
+        Verb::Advise(verb) => verb.execute(),
         Verb::Validate(verb) => verb.execute(),
         Verb::Schema(verb) => verb.execute(),
         Verb::Completions(verb) => verb.execute(),

@@ -77,6 +77,7 @@ impl Run {
             total_s: start.elapsed().as_secs_f64(),
             peak_memory_mb: peak_memory_mb(),
             work_units: problem.cells as f64,
+            ..Cost::default()
         };
         let written = match &result {
             Ok(outcome) => write_outcome(folder, summary, &problem, outcome, cost, self.png)?,

@@ -22,7 +22,7 @@ pub(super) struct StudyArgs {
     out: Option<PathBuf>,
     /// Threads to use [default: all processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
-    threads: Option<u16>,
+    pub threads: Option<u16>,
     /// Draw the figures as PNG, too
     #[arg(long)]
     png: bool,

@@ -24,6 +24,8 @@ pub const BETWEEN: u64 = 64;
 const AT_REST: f64 = 1e-6;
 /// Step of the fall over the limit of one contact: more contacts come.
 const FALLING: f64 = 0.35;
+/// Step of the fall over the limit of strong damping in a packing.
+const DAMPED: f64 = 0.7;
 
 /// What a run is at: a checkpoint may be taken in each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,8 +124,9 @@ pub fn deposit(
 /// Grains that are about to fall.
 fn begin(bed: &GrainBed, stage: Stage, grains: &[Grain]) -> Result<Engine<LinearSpring>, SolveError> {
     let law = law(&bed.contact)?;
-    let derived = stability::of_pair(&law, 0.5 * bed.mass());
-    let dt = bed.discrete.time_step.unwrap_or(f64::INFINITY).min(FALLING * derived);
+    let mass = 0.5 * bed.mass();
+    let derived = (FALLING * stability::of_pair(&law, mass)).min(DAMPED * stability::of_packing(&law, mass));
+    let dt = bed.discrete.time_step.unwrap_or(f64::INFINITY).min(derived);
     let lowest = grains.iter().map(|g| g.position[2]).fold(0.0, f64::min) - 2.0 * bed.d;
     let settings = Settings { skin: bed.discrete.skin * bed.d, lowest, ..Settings::new(dt, [0.0, 0.0, -bed.g], bed.d) };
     Ok(Engine::new(grains, stage.domain(bed), law, settings, threads())?)

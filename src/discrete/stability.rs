@@ -2,6 +2,9 @@
 //!
 //! Leapfrog whose damping takes the factor e^(-2 ζ w h) a step is stable for (w h)² < 2 (1 + e^(-2 ζ w h)). A pair has two modes: head-on, w² = k_n/m
 //! with the reduced mass m and damping ratio ζ; rolling against each other, w² = 7/2 k_s/m, undamped.
+//! A contact takes the share 1 - e^(-2 ζ w h) of the approach of its grains in a step. Where several contacts of a grain act along one
+//! direction, on λ of them as one, they must not take more than twice the approach: λ (1 - e^(-2 ζ w h)) < 2. It binds
+//! for restitution coefficients below about 0.1.
 //! In a packing w² of a grain is bounded by the largest eigenvalue of the stiffness of its contacts, translation and
 //! R ω together, over its mass, counted twice where the neighbour is mobile (block Gershgorin); for one pair the bound is exact.
 
@@ -43,6 +46,21 @@ fn damped(w: f64, zeta: f64) -> f64 {
     low / w
 }
 
+/// Longest step in which contacts with the rate 2 ζ w [1/s], `lambda` of them as one, take less than twice the approach of a grain [s].
+fn of_damping(rate: f64, lambda: f64) -> f64 {
+    if lambda > 2.0 && rate > 0.0 { -(-2.0 / lambda).ln_1p() / rate } else { f64::INFINITY }
+}
+
+/// Contacts that act as one along the worst direction in a bed that comes to rest: twelve touching neighbours, all around.
+const CLOSE_PACKED: f64 = 4.0;
+
+/// Longest step in which the damping of contacts of reduced mass `mass` [kg] is stable in any bed of like grains [s].
+#[must_use]
+pub fn of_packing<C: ContactLaw>(law: &C, mass: f64) -> f64 {
+    let (k_n, _) = law.stiffness();
+    of_damping(2.0 * law.damping_ratio() * (k_n / mass).sqrt(), CLOSE_PACKED)
+}
+
 #[derive(Clone)]
 struct Stiffness {
     normal: Matrix3<f64>,
@@ -50,6 +68,8 @@ struct Stiffness {
     contacts: usize,
     /// largest damping ratio over frequency of a contact [s]
     damping: f64,
+    /// smallest w² of a contact [1/s2]
+    softest: f64,
 }
 
 /// Longest stable step of the present contacts.
@@ -57,7 +77,13 @@ struct Stiffness {
 pub fn limit<C: ContactLaw>(engine: &Engine<C>) -> Limit {
     let grains = &engine.grains;
     let (k_n, k_s) = engine.law.stiffness();
-    let none = Stiffness { normal: Matrix3::zeros(), whole: Matrix6::zeros(), contacts: 0, damping: 0.0 };
+    let none = Stiffness {
+        normal: Matrix3::zeros(),
+        whole: Matrix6::zeros(),
+        contacts: 0,
+        damping: 0.0,
+        softest: f64::INFINITY,
+    };
     let mut all = vec![none; grains.len()];
     for contact in engine.contacts() {
         let n = Vector3::from(contact.normal);
@@ -74,7 +100,8 @@ pub fn limit<C: ContactLaw>(engine: &Engine<C>) -> Limit {
         whole.fixed_view_mut::<3, 3>(3, 3).copy_from(&(across * (2.5 * k_s)));
         let inverse = |i: usize| grains.spins[i].0[3];
         let both = inverse(contact.first) + contact.second.map_or(0.0, inverse);
-        let damping = engine.law.damping_ratio() / (k_n * both).sqrt();
+        let alone = k_n * both;
+        let damping = engine.law.damping_ratio() / alone.sqrt();
         for (one, other, sign) in
             [(Some(contact.first), contact.second, 1.0), (contact.second, Some(contact.first), -1.0)]
         {
@@ -89,6 +116,7 @@ pub fn limit<C: ContactLaw>(engine: &Engine<C>) -> Limit {
             all[i].whole += whole * count;
             all[i].contacts += 1;
             all[i].damping = all[i].damping.max(damping);
+            all[i].softest = all[i].softest.min(alone);
         }
     }
     let mut least = Limit { step: f64::INFINITY, grain: 0, contacts: 0 };
@@ -96,7 +124,9 @@ pub fn limit<C: ContactLaw>(engine: &Engine<C>) -> Limit {
         let inverse = grains.spins[i].0[3];
         let w_n = (stiffness.normal.symmetric_eigenvalues().max() * inverse).sqrt();
         let w = (stiffness.whole.symmetric_eigenvalues().max() * inverse).sqrt();
-        let step = damped(w_n, stiffness.damping * w_n).min(2.0 / w);
+        let rate = 2.0 * stiffness.damping * stiffness.softest;
+        let together = of_damping(rate, w_n * w_n / stiffness.softest);
+        let step = damped(w_n, stiffness.damping * w_n).min(2.0 / w).min(together);
         if step < least.step {
             least = Limit { step, grain: i, contacts: stiffness.contacts };
         }

@@ -11,7 +11,7 @@ use plotters::style::{
     Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle, register_font,
 };
 
-use super::theme::{self, Role};
+use super::theme::{self, BOLD, Role};
 use super::{Dash, Marker, PlotError};
 
 /// What differs between a vector and a bitmap backend.
@@ -77,6 +77,13 @@ impl<DB: DrawingBackend> Canvas<'_, DB> {
     pub fn marker(&self, at: Point, marker: Marker, role: Role) -> Result<(), PlotError> {
         const RADIUS: f64 = 3.4;
         const INNER: f64 = 2.1;
+        if marker == Marker::Cross {
+            let stroke = Stroke { role, width: BOLD, dash: Dash::Solid };
+            for slope in [-1.0, 1.0] {
+                self.line(&[(at.0 - RADIUS, at.1 - slope * RADIUS), (at.0 + RADIUS, at.1 + slope * RADIUS)], stroke)?;
+            }
+            return Ok(());
+        }
         for (radius, role) in [(RADIUS, role), (INNER, Role::Paper)] {
             let style = self.style(role, Dash::Solid).filled();
             let corners: &[Point] = match marker {
@@ -86,6 +93,8 @@ impl<DB: DrawingBackend> Canvas<'_, DB> {
                     continue;
                 }
                 Marker::Square => &[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)],
+                // Drawn above.
+                Marker::Cross => continue,
                 Marker::Triangle => &[(0.0, -1.3), (1.15, 0.75), (-1.15, 0.75)],
             };
             let around = corners.iter().map(|c| self.point((at.0 + radius * c.0, at.1 + radius * c.1)));

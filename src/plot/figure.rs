@@ -63,6 +63,8 @@ pub struct Curve {
     pub marker: Option<Marker>,
     /// standard error of x per point, drawn as bars at some of them; empty if there is none
     pub errors: Vec<Option<f64>>,
+    /// what a reader sees who points at a point; empty if there is nothing more to say
+    pub notes: Vec<String>,
 }
 
 /// Pattern of a line: with the colour it tells curves apart, without colour it still does.
@@ -87,6 +89,8 @@ pub enum Marker {
     Square,
     /// triangle on its base
     Triangle,
+    /// two crossed strokes: something that failed
+    Cross,
 }
 
 /// A labelled horizontal line.

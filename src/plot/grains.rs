@@ -10,6 +10,8 @@ use crate::units::readable;
 const COLOURS: [[f64; 3]; 4] = [[68.0, 58.0, 120.0], [49.0, 122.0, 142.0], [94.0, 190.0, 112.0], [240.0, 210.0, 50.0]];
 /// Width of the picture [px].
 const WIDTH: f64 = 720.0;
+/// A bed longer than so many of its heights is drawn from its beginning to there.
+const LONGEST: f64 = 12.0;
 
 /// The picture from the columns x_m, z_m, radius_m, u_particle_m_s; none if there is nothing to draw.
 #[must_use]
@@ -17,23 +19,31 @@ pub fn grains_svg(table: impl BufRead) -> Option<String> {
     let columns = read_columns(table).ok()?;
     let column = |name: &str| columns.iter().find(|(n, _)| n == name).map(|(_, v)| v);
     let [x, z, r, u] = [column("x_m")?, column("z_m")?, column("radius_m")?, column("u_particle_m_s")?];
-    let rows: Vec<[f64; 4]> = (0..x.len())
+    let mut rows: Vec<[f64; 4]> = (0..x.len())
         .filter_map(|i| Some([x[i]?, z[i]?, r[i]?, u[i]?]))
         .filter(|row| row.iter().all(|v| v.is_finite()))
         .collect();
-    let low = |of: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(of).fold(f64::INFINITY, f64::min);
-    let high = |of: &dyn Fn(&[f64; 4]) -> f64| rows.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-    let (left, right) = (low(&|g| g[0] - g[2]), high(&|g| g[0] + g[2]));
-    let (bottom, top) = (low(&|g| g[1] - g[2]), high(&|g| g[1] + g[2]));
-    let (slow, fast) = (low(&|g| g[3]), high(&|g| g[3]));
-    if rows.is_empty() || !(right > left && top > bottom) {
+    let span = |rows: &[[f64; 4]], of: &dyn Fn(&[f64; 4]) -> [f64; 2]| {
+        rows.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), [low, high]| (a.min(low), b.max(high)))
+    };
+    let (left, whole) = span(&rows, &|g| [g[0] - g[2], g[0] + g[2]]);
+    let (bottom, top) = span(&rows, &|g| [g[1] - g[2], g[1] + g[2]]);
+    if !(whole > left && top > bottom) {
         return None;
     }
+    rows.retain(|g| g[0] + g[2] <= left + LONGEST * (top - bottom));
+    let (_, right) = span(&rows, &|g| [g[0] - g[2], g[0] + g[2]]);
+    let (slow, fast) = span(&rows, &|g| [g[3], g[3]]);
+    let part = if right < whole {
+        format!(", the first {} of {}", readable(right - left, "m"), readable(whole - left, "m"))
+    } else {
+        String::new()
+    };
     let scale = WIDTH / (right - left).max(top - bottom);
     let (width, height) = (scale * (right - left), scale * (top - bottom));
     let mut svg = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {:.1}\" role=\"img\" \
-         aria-label=\"side view of {} grains, velocity from {} to {}\">\n",
+         aria-label=\"side view of {} grains{part}, velocity from {} to {}\">\n",
         height + 30.0,
         rows.len(),
         readable(slow, "m/s"),
@@ -50,12 +60,12 @@ pub fn grains_svg(table: impl BufRead) -> Option<String> {
             colour(share)
         );
     }
-    svg += &scale_bar(width, height, (slow, fast));
+    svg += &scale_bar(width, height, (slow, fast), &part);
     Some(svg + "</svg>")
 }
 
-/// The colours from slow to fast under a picture, with the two velocities [m/s].
-pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64)) -> String {
+/// The colours from slow to fast under a picture, with the two velocities [m/s] and what else there is to say.
+pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64), note: &str) -> String {
     let mut svg = String::new();
     for step in 0..60 {
         let at = 0.3 * width * f64::from(step) / 60.0;
@@ -69,7 +79,7 @@ pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64)) -> St
     }
     let _ = writeln!(
         svg,
-        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"13\" fill=\"currentColor\">{} to {}</text>",
+        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"13\" fill=\"currentColor\">{} to {}{note}</text>",
         0.3 * width + 8.0,
         height + 17.0,
         readable(slow, "m/s"),
@@ -98,5 +108,14 @@ mod tests {
         assert_eq!(svg.matches("<circle").count(), 2);
         assert!(svg.contains("#443a78") && svg.contains("#f0d232"), "slow and fast differ");
         assert!(grains_svg("x_m,z_m,radius_m,u_particle_m_s\n".as_bytes()).is_none());
+    }
+
+    #[test]
+    fn of_a_long_bed_the_beginning_is_drawn_and_said() {
+        let rows = (0..1000).map(|i| format!("{},0,0.003,0.1\n", 0.006 * f64::from(i)));
+        let table = String::from("x_m,z_m,radius_m,u_particle_m_s\n") + &rows.collect::<String>();
+        let svg = grains_svg(table.as_bytes()).unwrap();
+        assert_eq!(svg.matches("<circle").count(), 12);
+        assert!(svg.contains("the first 72.00 mm of 6.000 m"), "{}", &svg[..200]);
     }
 }

@@ -35,6 +35,8 @@ pub(super) const SAMPLE: f64 = 22.0;
 pub(super) const SAMPLE_GAP: f64 = 5.0;
 const FRAME_HEIGHT: f64 = 300.0;
 const PANEL_GAP: f64 = 20.0;
+/// The ends of logarithmic axes have longer numbers.
+const LOG_GAP: f64 = 36.0;
 const BELOW: f64 = 46.0;
 const EDGE: f64 = 10.0;
 /// Room for half of the last number of an axis.
@@ -67,11 +69,13 @@ impl Layout {
             .filter(|l| inside(&l.y))
             .map(|l| width(&l.label, SMALL))
             .try_fold(RIGHT, |w, x| x.map(|x| w.max(x + 8.0 + EDGE / 2.0)))?;
-        let frame_width = (full_width - left - right - PANEL_GAP * (count - 1) as f64) / count as f64;
+        let log = figure.panels.iter().any(|panel| panel.x.scale == Scale::Log);
+        let gap = if log { LOG_GAP } else { PANEL_GAP };
+        let frame_width = (full_width - left - right - gap * (count - 1) as f64) / count as f64;
         let mut frames = Vec::new();
         let (mut header, mut homeless) = (letters, Vec::new());
         for (i, panel) in figure.panels.iter().enumerate() {
-            let from = left + (frame_width + PANEL_GAP) * i as f64;
+            let from = left + (frame_width + gap) * i as f64;
             let x = horizontal(figure, panel, (from, from + frame_width))?;
             let size = legend_size(panel)?;
             let place = size.and_then(|size| free_place(figure, panel, (&x, &y), size));

@@ -63,7 +63,7 @@ pub fn section_svg(table: impl BufRead, symmetric: bool, bed: Option<f64>) -> Op
             "<path d=\"M0 {y:.1}H{width:.1}\" stroke=\"#e0e0e0\" stroke-width=\"1\" stroke-dasharray=\"6 4\"/>"
         );
     }
-    svg += &scale_bar(width, height, (0.0, fast));
+    svg += &scale_bar(width, height, (0.0, fast), "");
     Some(svg + "</svg>\n")
 }
 

@@ -142,7 +142,7 @@ impl Scene<'_> {
             let known = trace.errors.and_then(|errors| errors.get(quantity)).unwrap_or_default();
             let errors = known.iter().map(|sigma| sigma.map(|sigma| sigma * factor)).collect();
             let name = if named { trace.name.to_owned() } else { String::new() };
-            curves.push(Curve { name, points, colour: i, line, marker, errors });
+            curves.push(Curve { name, points, colour: i, line, marker, errors, ..Curve::default() });
         }
         Panel { x: Axis::linear(quantity.title, unit), curves }
     }

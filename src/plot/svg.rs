@@ -55,7 +55,31 @@ pub fn svg(figure: &Figure) -> Result<String, PlotError> {
             restyle(tag, &mut out);
         }
     }
-    Ok(out)
+    Ok(match out.rfind("</svg>") {
+        Some(end) => format!("{}{}{}", &out[..end], notes(figure, &layout), &out[end..]),
+        None => out,
+    })
+}
+
+/// What a reader sees who points at a point, over the drawing.
+fn notes(figure: &Figure, layout: &Layout) -> String {
+    let mut out = String::new();
+    for (panel, frame) in figure.panels.iter().zip(&layout.frames) {
+        for curve in &panel.curves {
+            for (point, note) in curve.points.iter().zip(&curve.notes) {
+                let Some((x, y)) = point.filter(|&(x, y)| panel.x.holds(x) && figure.y.holds(y)) else { continue };
+                let _ = writeln!(
+                    out,
+                    "<circle class=\"hit\" cx=\"{:.0}\" cy=\"{:.0}\" r=\"{:.0}\" fill=\"transparent\"><title>{}</title></circle>",
+                    GRID * frame.x.at(x),
+                    GRID * layout.y.at(y),
+                    6.0 * GRID,
+                    escape(note)
+                );
+            }
+        }
+    }
+    out
 }
 
 /// Writes a tag, given without its `<`, with classes for sentinel colours and without what the classes imply.
@@ -146,6 +170,18 @@ mod tests {
     }
 
     #[test]
+    fn notes_are_what_a_reader_sees_who_points() {
+        let mut figure = trials::convergence();
+        let curve = &mut figure.panels[0].curves[0];
+        curve.notes = vec!["24 cells: <1 %".into(); curve.points.len()];
+        curve.marker = Some(Marker::Cross);
+        let drawing = svg(&figure).unwrap();
+        sound(&drawing);
+        let drawn = figure.panels[0].curves[0].points.iter().flatten().count();
+        assert_eq!(drawing.matches("<title>24 cells: &lt;1 %</title>").count(), drawn);
+    }
+
+    #[test]
     fn labels_of_users_stay_text() {
         let mut figure = trials::convergence();
         figure.caption = "</title><script>".into();
@@ -176,6 +212,7 @@ mod tests {
                     line: Some(Dash::DashDotted),
                     marker: Some(Marker::Square),
                     errors: vec![Some(0.5), None, Some(f64::NAN)],
+                    notes: vec!["note".into(); 3],
                 };
                 let axis = Axis { scale, ..Axis::linear("x", "m") };
                 let panel = Panel { x: axis.clone(), curves: vec![curve] };

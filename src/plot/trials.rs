@@ -31,7 +31,13 @@ fn summary(case: &str, model: &str, results: Results) -> Summary {
         }],
         regularisation,
         error: None,
-        cost: Cost { solve_s: 2.1e-4, total_s: 3.3e-3, peak_memory_mb: Some(9.2), work_units: LEVELS as f64 },
+        cost: Cost {
+            solve_s: 2.1e-4,
+            total_s: 3.3e-3,
+            peak_memory_mb: Some(9.2),
+            work_units: LEVELS as f64,
+            ..Cost::default()
+        },
         provenance: Provenance { source: "exact_1d_ouriemi".into(), ..Provenance::of_this_program() },
     }
 }

@@ -148,6 +148,16 @@ pub struct Cost {
     pub peak_memory_mb: Option<f64>,
     /// levels, cells times steps, or grains times steps
     pub work_units: f64,
+    /// how often it was solved, where `solve_s` is a median
+    #[serde(default, skip_serializing_if = "is_one")]
+    pub repeats: usize,
+    /// from the first to the third quartile of those times [s]
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spread_s: Option<f64>,
+}
+
+fn is_one(repeats: &usize) -> bool {
+    *repeats <= 1
 }
 
 /// Why a run failed, as it stands in `summary.json` and in the answer of `--json`.

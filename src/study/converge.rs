@@ -69,6 +69,7 @@ pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
         options: vec![("over".into(), request.over.name().into()), ("reference".into(), reference.into())],
         varied: vec![varied.to_owned()],
         points,
+        repeats: 1,
     };
     match request.over {
         Over::Regularisation => {

@@ -50,6 +50,11 @@ impl ClosedForm {
         Some(Self { velocity, results: outcome.results })
     }
 
+    /// Its numbers [SI].
+    pub fn results(&self) -> &Results {
+        &self.results
+    }
+
     /// The velocity at the levels of `run`.
     fn at(&self, run: &Profile) -> Option<Profile> {
         let levels = run.axis();
@@ -80,6 +85,7 @@ pub(super) fn points(reference: Reference, meshes: Meshes) -> Vec<Point> {
     let point = |series: &str, cells: usize, node: bool| {
         let grid = [format!("{KEY}={cells}"), format!("{key}={node}")];
         Point {
+            case: None,
             series: series.into(),
             values: vec![cells.to_string()],
             overrides: [&grid[..], &exact_yield()].concat(),

@@ -1,15 +1,17 @@
 //! Studies: one case at many points, run in parallel into ordinary run folders, and what the points say together.
 //!
 //! ```text
-//! converge, sweep ─► Plan (points: overrides of one case) ─► conduct: run, judge, write ─► study.json, points.csv, page
+//! converge, sweep, chart, stability ─► Plan (points: overrides of one case) ─► conduct: run, judge, write ─► study.json, points.csv, page
 //! ```
 //!
 //! A verb makes a [`Plan`] and judges its [`Row`]s: measures per point, findings in words, figures. Everything else is the
 //! same for all: [`conduct`] runs the points, skips those that are done, turns a failure into a row, and writes the folder.
 
+pub mod chart;
 pub mod converge;
 mod coupled;
 mod errors;
+mod ladder;
 mod mesh;
 pub mod orders;
 mod page;
@@ -18,6 +20,7 @@ mod record;
 mod regularisation;
 mod runner;
 mod sheet;
+pub mod stability;
 pub mod sweep;
 
 use std::path::PathBuf;
@@ -34,7 +37,7 @@ pub use runner::{Conducted, Observer, Settings, conduct};
 /// What is run: points of one case.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// `converge` or `sweep`
+    /// `converge`, `sweep`, `chart` or `stability`
     pub verb: &'static str,
     /// file or shipped case, as typed
     pub case: String,
@@ -46,16 +49,20 @@ pub struct Plan {
     pub varied: Vec<String>,
     /// in the order of the table
     pub points: Vec<Point>,
+    /// how often a point that is solved in no time is solved, for the median of its cost; 1 for once
+    pub repeats: usize,
 }
 
 /// One point of a plan.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Point {
+    /// the case, file or shipped, if it is another than that of the plan
+    pub case: Option<String>,
     /// the curve that it lies on; empty where there is only one
     pub series: String,
     /// value of each varied key, as it is set; empty where the key has none here
     pub values: Vec<String>,
-    /// what is changed in the case of the plan, after its own `--set`s
+    /// what is changed in the case, after the plan's own `--set`s where the case is its own
     pub overrides: Vec<String>,
 }
 
@@ -108,6 +115,14 @@ pub enum StudyError {
         /// models that have it
         allowed: &'static str,
     },
+    /// what errors are to be measured against cannot be used
+    #[error("--reference {argument}: {reason}")]
+    BadReference {
+        /// as typed
+        argument: String,
+        /// what is wrong with it
+        reason: String,
+    },
     /// no closed form to measure against
     #[error("{model} has no closed form to converge to")]
     NoClosedForm {
@@ -145,6 +160,7 @@ impl StudyError {
         match self {
             Self::NoSuchSetting { .. } => "no-such-setting",
             Self::NoClosedForm { .. } => "no-closed-form",
+            Self::BadReference { .. } => "bad-reference",
             Self::BadOver { .. } => "bad-over",
             Self::Case(_) => "case",
             Self::Output(error) => error.code(),
@@ -158,6 +174,7 @@ impl StudyError {
         match self {
             Self::NoSuchSetting { .. } => "give a case of such a model: `bedload list cases`".into(),
             Self::NoClosedForm { .. } => "--reference finest measures against the finest mesh".into(),
+            Self::BadReference { .. } => "give the folder of a finished run, `exact` or `finest`".into(),
             Self::BadOver { argument, .. } => over_hint(argument),
             Self::Case(_) => String::new(),
             Self::Output(error) => error.hint().unwrap_or_default().into(),

@@ -40,14 +40,14 @@ pub(super) fn smoothed(law: &str, lambda: &str) -> Vec<String> {
 pub(super) fn points(reference: Reference, half_decades: bool) -> Vec<Point> {
     let mut points = Vec::new();
     if reference == Reference::Exact {
-        points.push(Point { series: EXACT.into(), values: vec![String::new()], overrides: exact_yield() });
+        points.push(Point { case: None, series: EXACT.into(), values: vec![String::new()], overrides: exact_yield() });
     }
     let (from, to) = DECADES;
     for (law, _) in LAWS {
         for decade in from..=to {
             let mut add = |lambda: String| {
                 let overrides = smoothed(law, &lambda);
-                points.push(Point { series: law.into(), values: vec![lambda], overrides });
+                points.push(Point { case: None, series: law.into(), values: vec![lambda], overrides });
             };
             add(format!("1e-{decade}"));
             if half_decades && decade < to {

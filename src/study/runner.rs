@@ -4,12 +4,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 use serde_json::Value;
 
-use super::{Judgement, Plan, Row, StudyError, page, record};
+use super::{Judgement, Plan, Point, Row, StudyError, page, record};
 use crate::case::{Case, CaseError};
 use crate::output::{
     Folder, Mode, OutputError, StudyFolder, fingerprint, read_run, read_series, write_failure, write_outcome,
@@ -18,6 +18,9 @@ use crate::output::{
 use crate::problem::Problem;
 use crate::result::{Cost, ErrorReport, Provenance, Results, Snapshot, Status, Watch};
 use crate::runtime::cost::peak_memory_mb;
+
+/// A point that took longer than this in all is not solved again.
+const ENOUGH: Duration = Duration::from_secs(2);
 
 /// Sees points end, and may ask to stop; called from several threads.
 pub trait Observer: Sync {
@@ -82,7 +85,7 @@ pub fn conduct(
     judge: impl FnOnce(&[Row]) -> Judgement,
 ) -> Result<Conducted, StudyError> {
     let start = Instant::now();
-    let mut loaded: Vec<Loaded> = plan.points.iter().map(|point| load(plan, &point.overrides)).collect();
+    let mut loaded: Vec<Loaded> = plan.points.iter().map(|point| load(plan, point)).collect();
     let Some(name) = loaded.iter().find_map(|l| l.case.as_ref().ok().map(|(case, ..)| case.name.clone())) else {
         let first = loaded.drain(..).find_map(|l| l.case.err());
         let empty = || StudyError::BadOver { argument: String::new(), reason: "there is no point".into() };
@@ -111,6 +114,7 @@ pub fn conduct(
         total_s: start.elapsed().as_secs_f64(),
         peak_memory_mb: peak_memory_mb(),
         work_units: rows.iter().map(|row| row.cost.work_units).sum(),
+        ..Cost::default()
     };
     let written = head.complete(status, &rows, &judgement, &cost, &provenance);
     let page = page::html(&head, &rows, &judgement, &cost, &provenance);
@@ -121,9 +125,12 @@ pub fn conduct(
     Ok(Conducted { record: written, rows, judgement, status, out, figures, kept, resumed, cost })
 }
 
-fn load(plan: &Plan, overrides: &[String]) -> Loaded {
-    let overrides = [plan.overrides.as_slice(), overrides].concat();
-    let case = Problem::load(&plan.case, &overrides).map(|(case, problem)| {
+fn load(plan: &Plan, point: &Point) -> Loaded {
+    let case = match &point.case {
+        Some(case) => Problem::load(case, &point.overrides),
+        None => Problem::load(&plan.case, &[plan.overrides.as_slice(), &point.overrides].concat()),
+    };
+    let case = case.map(|(case, problem)| {
         let resolved = case.resolved();
         (case, problem, resolved)
     });
@@ -160,7 +167,7 @@ fn run(
                     resumed.fetch_add(1, Ordering::Relaxed);
                     row
                 }
-                None => solve(case, &place, settings.observer)?,
+                None => solve(case, &place, settings.observer, plan.repeats)?,
             };
             settings.observer.done(ended.fetch_add(1, Ordering::Relaxed) + 1, all);
             Ok((sha256.clone(), row))
@@ -195,6 +202,7 @@ fn solve(
     (case, problem, resolved): &(Case, Problem, String),
     place: &Path,
     observer: &dyn Observer,
+    repeats: usize,
 ) -> Result<Row, OutputError> {
     if observer.stop() {
         return Ok(Row::empty(Status::Stopped));
@@ -205,11 +213,21 @@ fn solve(
     let summary = write_running(&folder, case, problem, 1)?;
     let solving = Instant::now();
     let result = crate::run(problem, &mut Listening(observer));
+    let mut times = vec![solving.elapsed()];
+    while times.len() < repeats && times.iter().sum::<Duration>() < ENOUGH && result.is_ok() && !observer.stop() {
+        let again = Instant::now();
+        let _ = crate::run(problem, &mut Listening(observer));
+        times.push(again.elapsed());
+    }
+    times.sort();
+    let solve_s = times[times.len() / 2].as_secs_f64();
     let cost = Cost {
-        solve_s: solving.elapsed().as_secs_f64(),
+        solve_s,
         total_s: start.elapsed().as_secs_f64(),
         peak_memory_mb: peak_memory_mb(),
         work_units: problem.cells as f64,
+        repeats: times.len(),
+        spread_s: (times.len() > 1).then(|| (times[3 * times.len() / 4] - times[times.len() / 4]).as_secs_f64()),
     };
     Ok(match result {
         Ok(outcome) => {
@@ -250,7 +268,7 @@ impl Row {
             hint: None,
         });
         Self {
-            point: super::Point { series: String::new(), values: Vec::new(), overrides: Vec::new() },
+            point: Point::default(),
             sha256: None,
             status,
             error,

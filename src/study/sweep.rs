@@ -43,6 +43,7 @@ pub fn plan(case: &str, overrides: &[String], over: &[String]) -> Result<(Plan, 
         options: over.iter().map(|argument| ("over".into(), argument.clone())).collect(),
         varied: varied.iter().map(|v| v.key.clone()).collect(),
         points,
+        repeats: 1,
     };
     Ok((plan, Box::new(move |rows: &[Row]| judge(&varied, axis, rows))))
 }
@@ -58,6 +59,7 @@ fn point(varied: &[Varied], axis: Option<usize>, mut index: usize) -> Point {
     let others = pairs().enumerate().filter(|(i, _)| Some(*i) != axis);
     let series = others.map(|(_, (key, value))| format!("{} = {value}", key.rsplit('.').next().unwrap_or(key)));
     Point {
+        case: None,
         series: series.collect::<Vec<_>>().join(", "),
         overrides: pairs().map(|(key, value)| format!("{key}={value}")).collect(),
         values: values.clone(),

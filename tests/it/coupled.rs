@@ -112,3 +112,14 @@ fn a_flume_ends_when_its_rate_is_known_well_enough() {
     let precision = rate["stderr"].as_f64().unwrap() / rate["value"].as_f64().unwrap();
     assert!(precision <= wanted, "{precision}");
 }
+
+#[test]
+fn grains_that_give_nothing_back_fall_and_flow() {
+    let scratch = Scratch::new();
+    let more = ["--set", "closures.contact.e_n=0.01", "--set", "discrete.duration=0.4 s", "--out", "out"];
+    let period = ["--set", "discrete.sample_period=0.02 s"];
+    scratch.bedload(case(&[&more[..], &period].concat())).exits(0);
+    let step = number(&scratch.summary("out"), "time_step_s");
+    // What takes ten times the step to be stable is not run at the step of lively grains.
+    assert!(step < 5e-5, "{step}");
+}

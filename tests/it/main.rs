@@ -5,6 +5,7 @@
 mod architecture;
 mod cases_bad;
 mod cases_good;
+mod chart;
 mod cli;
 mod compare;
 mod converge;

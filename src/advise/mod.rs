@@ -1,0 +1,177 @@
+//! `advise`: the least model that a scene needs, and term by term what can go.
+//!
+//! Numbers of the scene (Shields, fall velocity over friction velocity, grain Reynolds, ...) say which model is the least that serves. What a term
+//! is worth is not guessed where it can be had: models that answer in milliseconds are solved with and without it, and the change of
+//! the transport rate is the error that dropping it costs. For grains, which take minutes, the threshold that the source gives decides.
+//! Thresholds are of the papers that the sources name, or measured here (docs/coupled.md).
+
+mod laminar;
+mod turbulent;
+
+use crate::case::CaseError;
+use crate::problem::{Model, Problem};
+use crate::result::quantity as q;
+use crate::result::{Quiet, Results};
+use crate::units::significant;
+
+/// A number that describes the scene.
+#[derive(Clone, Debug)]
+pub struct Number {
+    /// what it is, with its symbol
+    pub name: &'static str,
+    /// its value [1]
+    pub value: f64,
+    /// what it says here
+    pub says: String,
+}
+
+/// A term, or a part of the numerics, and whether the scene needs it.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// what it is
+    pub what: &'static str,
+    /// whether to keep it
+    pub keep: bool,
+    /// relative change of the transport rate without it, where both were solved
+    pub error: Option<f64>,
+    /// why, in words
+    pub because: String,
+    /// where the threshold comes from
+    pub source: &'static str,
+}
+
+/// The least model that serves.
+#[derive(Clone, Debug)]
+pub struct Least {
+    /// `kind` of the model
+    pub kind: &'static str,
+    /// why this one
+    pub because: String,
+    /// shipped case of that model, to start from
+    pub template: &'static str,
+    /// what is changed in it so that it is this scene; `None` where the case of the scene is of that model already
+    pub overrides: Option<Vec<String>>,
+}
+
+/// What is said of a scene.
+#[derive(Clone, Debug)]
+pub struct Advice {
+    /// numbers of the scene
+    pub numbers: Vec<Number>,
+    /// the model
+    pub least: Least,
+    /// its terms
+    pub terms: Vec<Term>,
+}
+
+/// Why there is no advice.
+#[derive(Debug, thiserror::Error)]
+pub enum AdviseError {
+    /// the case is wrong
+    #[error(transparent)]
+    Case(#[from] Box<CaseError>),
+    /// the model is no scene of sediment transport
+    #[error("there is nothing to choose for {model}: it is the only model of its scene")]
+    OneModel {
+        /// the model
+        model: String,
+    },
+    /// the case of the advised model is refused
+    #[error("no case of {kind} can be written for this scene: {reason}")]
+    NoCase {
+        /// the model
+        kind: &'static str,
+        /// what its case says
+        reason: String,
+    },
+}
+
+impl AdviseError {
+    /// Stable identifier, as in the answer of `--json`.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::Case(_) => "case",
+            Self::OneModel { .. } => "one-model",
+            Self::NoCase { .. } => "no-case",
+        }
+    }
+}
+
+/// Advice for the scene of `case` with `overrides`: terms that change the transport rate by less than `tolerance` can go.
+///
+/// # Errors
+/// [`AdviseError::Case`]; [`AdviseError::OneModel`] for cases that are no scene.
+pub fn advise(case: &str, overrides: &[String], tolerance: f64) -> Result<Advice, AdviseError> {
+    let (_, problem) = Problem::load(case, overrides).map_err(Box::new)?;
+    let scene = Scene { case, overrides, tolerance };
+    match &problem.model {
+        Model::Ouriemi(bed) => Ok(laminar::advise(&scene, bed, true)),
+        Model::Laminar(bed) => Ok(laminar::advise(&scene, &bed.bed, false)),
+        Model::SheetFlow(flow) => Ok(turbulent::advise(&scene, &turbulent::of_sheet_flow(flow, &problem))),
+        Model::Coupled(flow) => Ok(turbulent::advise(&scene, &turbulent::of_grains(flow))),
+        _ => Err(AdviseError::OneModel { model: problem.kind.into() }),
+    }
+}
+
+impl Advice {
+    /// The text of a case file of the least model: `None` where the case that was given is one.
+    ///
+    /// # Errors
+    /// [`AdviseError::NoCase`] if that model refuses the scene.
+    pub fn case(&self) -> Result<Option<String>, AdviseError> {
+        let Some(overrides) = &self.least.overrides else { return Ok(None) };
+        let (case, _) = Problem::load(self.least.template, overrides).map_err(|error| {
+            let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
+            AdviseError::NoCase { kind: self.least.kind, reason }
+        })?;
+        // The claims of the template are not those of this scene.
+        let resolved = case.resolved();
+        let own = resolved.split("[[check]]").next().unwrap_or(&resolved).trim_end();
+        Ok(Some(format!(
+            "# Written by `bedload advise`: the least model that serves, from {}.\n{own}\n",
+            self.least.template
+        )))
+    }
+}
+
+/// The case that is advised on.
+struct Scene<'a> {
+    case: &'a str,
+    overrides: &'a [String],
+    tolerance: f64,
+}
+
+impl Scene<'_> {
+    fn solve(&self, change: &[&str]) -> Option<Results> {
+        let change: Vec<String> = change.iter().map(|&c| c.to_owned()).collect();
+        let (_, problem) = Problem::load(self.case, &[self.overrides, &change].concat()).ok()?;
+        crate::run(&problem, &mut Quiet).ok().map(|outcome| outcome.results)
+    }
+
+    /// A term that is judged by solving the case as it stands and with `change`, which drops it.
+    fn without(&self, what: &'static str, change: &[&str], (dropped, source): (&str, &'static str)) -> Option<Term> {
+        let rate = |results: &Results| results.get(q::TRANSPORT_RATE.name);
+        let with = rate(&self.solve(&[])?)?;
+        let (error, keep) = match self.solve(change).as_ref().and_then(rate) {
+            Some(without) if with != 0.0 => {
+                let error = (without / with - 1.0).abs();
+                (Some(error), error > self.tolerance)
+            }
+            // Nothing to compare, or no flow without it.
+            Some(without) => (None, without != with),
+            None => (None, true),
+        };
+        let because = match error {
+            Some(error) => format!("{dropped} changes the transport rate by {}", share(error)),
+            None if keep => format!("{dropped} leaves no such flow"),
+            None => format!("{dropped} changes nothing"),
+        };
+        Some(Term { what, keep, error, because, source })
+    }
+}
+
+/// `2.1 %`, or `3e-5` where a per cent says nothing.
+fn share(error: f64) -> String {
+    if error >= 1e-4 { format!("{} %", significant(100.0 * error, 2)) } else { format!("{error:.0e}") }
+}

@@ -1,0 +1,331 @@
+//! Advice on a turbulent flow over a bed: nothing, grains, two fluids or sheet flow; suspension, eddies, viscosity.
+
+use std::f64::consts::PI;
+
+use super::{Advice, Least, Number, Scene, Term, share};
+use crate::case::grain_tables::Bottom;
+use crate::closures::contact::LinearSpring;
+use crate::closures::fluctuation::Fluctuation;
+use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::suspension::Suspension;
+use crate::problem::{Coupled, Problem, SheetFlow, Surface};
+use crate::result::Quiet;
+use crate::result::quantity as q;
+use crate::units::significant;
+
+const MAURIN: &str = "Maurin et al. (2015); docs/coupled.md";
+const REVIL: &str = "Revil-Baudard & Chauchat (2013)";
+const CHASSAGNE: &str = "Chassagne et al. (2023)";
+/// Shields number at which the first grains move: intercept of Q*^(2/3), with eddies (docs/coupled.md).
+const ONSET: f64 = 0.045;
+/// Shields number from which eddies make no difference to grains (docs/coupled.md: from 0.1 on the rates agree).
+const EDDIES: f64 = 0.1;
+/// From here on a continuum of collisions holds.
+const COLLISIONS: f64 = 0.2;
+/// From here on the bed moves as a sheet.
+const SHEET: f64 = 0.5;
+/// Layers that a dense continuum needs.
+const MANY: f64 = 6.0;
+/// Solid fraction of a packed bed, and of what moves.
+const PACKED: f64 = 0.6;
+
+/// What matters of a turbulent scene. All values SI.
+pub(super) struct Turbulent {
+    rho_f: f64,
+    rho_p: f64,
+    nu: f64,
+    d: f64,
+    g: f64,
+    /// depth of the water
+    depth: f64,
+    sine: f64,
+    theta: f64,
+    mu_s: f64,
+    /// fall velocity if the case gives it
+    settling: Option<f64>,
+    /// whether a suspension and a viscosity of the mixture are in the case; `None` in a model of grains
+    continuum: Option<(bool, bool)>,
+    grains: Option<Grains>,
+}
+
+/// What only grains have.
+struct Grains {
+    contact: LinearSpring,
+    eddies: bool,
+    walls: bool,
+    size: [f64; 2],
+    layers: f64,
+    slice: bool,
+}
+
+pub(super) fn of_sheet_flow(flow: &SheetFlow, problem: &Problem) -> Turbulent {
+    let solved = crate::run(problem, &mut Quiet).ok().map(|outcome| outcome.results);
+    let result = |name: &str| solved.as_ref().and_then(|results| results.get(name));
+    let theta = flow.tau_b.map(|tau| tau / flow.stress_scale()).or(result(q::SHIELDS.name)).unwrap_or(f64::NAN);
+    let depth = flow.height - flow.level;
+    let sine =
+        flow.sine.or(result(q::SLOPE_SINE.name)).unwrap_or(theta * flow.stress_scale() / (flow.rho_f * flow.g * depth));
+    Turbulent {
+        rho_f: flow.rho_f,
+        rho_p: flow.rho_p,
+        nu: flow.eta / flow.rho_f,
+        d: flow.d,
+        g: flow.g,
+        depth,
+        sine,
+        theta,
+        mu_s: flow.friction.mu_s,
+        settling: match flow.suspension {
+            Suspension::Rouse(law) => Some(law.settling_velocity),
+            Suspension::None => None,
+        },
+        continuum: Some((
+            !matches!(flow.suspension, Suspension::None),
+            !matches!(flow.viscosity, MixtureViscosity::Clear),
+        )),
+        grains: None,
+    }
+}
+
+pub(super) fn of_grains(flow: &Coupled) -> Turbulent {
+    let bed = &flow.bed;
+    let across = if bed.side_walls { bed.size[1].min(bed.d) } else { bed.size[1] };
+    let volume = bed.mobile as f64 * PI / 6.0 * bed.d.powi(3);
+    let thickness = volume / (PACKED * bed.size[0] * across.max(bed.size[1]));
+    let depth = match flow.surface {
+        Surface::Depth(depth) => depth,
+        Surface::Height(height) => height - thickness,
+    };
+    Turbulent {
+        rho_f: flow.rho_f,
+        rho_p: bed.rho_p,
+        nu: flow.nu(),
+        d: bed.d,
+        g: bed.g,
+        depth,
+        sine: bed.beta.sin(),
+        theta: flow.rho_f * bed.g * depth * bed.beta.sin() / flow.stress_scale(),
+        mu_s: bed.contact.mu,
+        settling: None,
+        continuum: None,
+        grains: Some(Grains {
+            contact: bed.contact,
+            eddies: !matches!(flow.fluctuation, Fluctuation::None),
+            walls: bed.side_walls,
+            size: bed.size,
+            layers: thickness / bed.d,
+            slice: bed.bottom == Bottom::Slice,
+        }),
+    }
+}
+
+impl Turbulent {
+    fn excess(&self) -> f64 {
+        self.rho_p / self.rho_f - 1.0
+    }
+
+    fn u_star(&self) -> f64 {
+        (self.theta * self.excess() * self.g * self.d).sqrt()
+    }
+
+    /// Fall velocity [m/s]: that of the case, else of a sphere with the drag 0.4 + 24.4/Re.
+    fn fall(&self) -> f64 {
+        let (c, viscous) = (0.4, 24.4 * self.nu / self.d);
+        let weight = 4.0 / 3.0 * self.excess() * self.g * self.d;
+        self.settling.unwrap_or(((viscous * viscous + 4.0 * c * weight).sqrt() - viscous) / (2.0 * c))
+    }
+
+    /// Share of the weight of the moving bed along the slope in what drives it.
+    fn weight(&self) -> f64 {
+        (1.0 / self.excess() + PACKED) * self.sine / (self.mu_s * PACKED)
+    }
+
+    /// Thickness of the moving layer over d: Revil-Baudard & Chauchat (2013), eq. (32).
+    fn layers(&self) -> f64 {
+        self.theta / (self.mu_s * PACKED * (1.0 - self.weight())).max(1e-12)
+    }
+
+    fn numbers(&self) -> Vec<Number> {
+        let number = |name, value: f64, says: String| Number { name, value, says };
+        let ratio = self.fall() / self.u_star();
+        let mut numbers = vec![
+            number("Shields number θ", self.theta, regime(self.theta).into()),
+            number("fall over friction velocity w_s/u_*", ratio, {
+                let says = if ratio > 1.0 {
+                    "no suspension"
+                } else if ratio < 0.8 {
+                    "suspension"
+                } else {
+                    "suspension begins"
+                };
+                says.into()
+            }),
+            number("grain Reynolds number u_* d/ν", self.u_star() * self.d / self.nu, {
+                let rough = self.u_star() * self.d / self.nu > 70.0;
+                if rough { "rough: the viscous stress hardly matters" } else { "viscous stress matters" }.into()
+            }),
+            number("moving layers δ_s/d", self.layers(), {
+                if self.layers() > MANY { "a dense continuum" } else { "few layers: no dense continuum" }.into()
+            }),
+            number("submergence h/d", self.depth / self.d, {
+                let low = self.depth < 5.0 * self.d;
+                if low { "low: the mixing length is that of a wake, not of a wall" } else { "deep over the grains" }
+                    .into()
+            }),
+            number("weight along the slope", self.weight(), {
+                if self.weight() < 1.0 {
+                    format!("without it the moving layer is thinner by {}", share(self.weight()))
+                } else {
+                    "no bed rests on this slope".into()
+                }
+            }),
+            number(
+                "Stokes number ρ_p w_s d/(9 η)",
+                self.rho_p * self.fall() * self.d / (9.0 * self.nu * self.rho_f),
+                { "impacts rebound above about 10".into() },
+            ),
+        ];
+        if let Some(grains) = &self.grains {
+            let pressure = (self.rho_p - self.rho_f) * self.g * PACKED * grains.layers * self.d;
+            let rigid = grains.contact.k_n / (pressure * self.d);
+            let says = if rigid >= 1e4 { "rigid grains" } else { "below 1e4: contacts are soft" };
+            numbers.push(number("stiffness k_n/(P d)", rigid, says.into()));
+        }
+        numbers
+    }
+
+    fn least(&self) -> Least {
+        let theta = significant(self.theta, 3);
+        let mine = |kind: &str| match (kind, &self.grains) {
+            ("sheet-flow", None) | ("coupled", Some(_)) => true,
+            _ => false,
+        };
+        let least = |kind: &'static str, template: &'static str, because: String, values: Vec<String>| Least {
+            kind,
+            because,
+            template,
+            overrides: (!mine(kind)).then_some(values),
+        };
+        if self.theta < ONSET {
+            let because =
+                format!("θ = {theta} is below {ONSET}, where the first grains move: the flow over a bed at rest");
+            let values = vec![
+                format!("fluid.density={:?}", self.rho_f),
+                format!("fluid.viscosity={:?}", self.nu * self.rho_f),
+                format!("flow.height={:?}", self.depth),
+                format!("flow.u_star={:?}", self.u_star()),
+                format!("closures.wall.k_s={:?}", self.d),
+            ];
+            return least("exact/log-law", "exact_1d_loglaw", because, values);
+        }
+        if self.theta > SHEET && self.layers() > MANY {
+            let because = format!("θ = {theta} > {SHEET} and {} layers move", significant(self.layers(), 2));
+            let shields = vec![format!("flow.shields={:?}", self.theta), "flow.slope=".into()];
+            return least("sheet-flow", "sheet_1d_type_a", because, [self.matter(), shields, self.heights()].concat());
+        }
+        let because = if self.theta < COLLISIONS {
+            format!("θ = {theta} < {COLLISIONS}: single grains move, no continuum holds")
+        } else {
+            format!("θ = {theta} and {} layers move: too few for a dense continuum", significant(self.layers(), 2))
+        };
+        let flow = vec![
+            format!("flow.depth={:?}", self.depth),
+            format!("flow.slope={:?}", self.sine),
+            format!("flow.length={:?}", 30.0 * self.d),
+            format!("flow.width={:?}", 30.0 * self.d),
+        ];
+        least("coupled", "coupled_3d_chassagne_quick", because, [self.matter(), flow].concat())
+    }
+
+    fn matter(&self) -> Vec<String> {
+        vec![
+            format!("fluid.density={:?}", self.rho_f),
+            format!("fluid.viscosity={:?}", self.nu * self.rho_f),
+            format!("grains.diameter={:?}", self.d),
+            format!("grains.density={:?}", self.rho_p),
+        ]
+    }
+
+    fn heights(&self) -> Vec<String> {
+        let level = 2.5 * self.layers().max(5.0) * self.d;
+        vec![format!("bed.level={level:?}"), format!("flow.height={:?}", level + self.depth)]
+    }
+}
+
+/// What a Shields number says.
+fn regime(theta: f64) -> &'static str {
+    match theta {
+        t if t < ONSET => "nothing moves",
+        t if t < COLLISIONS => "single grains roll and jump",
+        t if t < SHEET => "layers of colliding grains",
+        _ => "sheet flow",
+    }
+}
+
+pub(super) fn advise(scene: &Scene<'_>, flow: &Turbulent) -> Advice {
+    let mut terms = Vec::new();
+    if let Some((suspension, viscosity)) = flow.continuum {
+        if suspension {
+            let change = ["closures.suspension={ law = \"none\" }"];
+            terms.extend(scene.without("suspension", &change, ("a flow without it", REVIL)));
+        }
+        if viscosity {
+            let change = ["closures.mixture_viscosity={ law = \"clear\" }"];
+            terms.extend(scene.without(
+                "viscosity of the mixture",
+                &change,
+                ("the viscosity of the clear fluid", REVIL),
+            ));
+        }
+        let change = ["closures.rearrangement={ law = \"free-fall\" }"];
+        let dropped = ("the free-fall time alone", REVIL);
+        terms.extend(scene.without("largest of three rearrangement times", &change, dropped));
+    }
+    if let Some(grains) = &flow.grains {
+        let keep = flow.theta < EDDIES;
+        let has = if grains.eddies { "" } else { "; this case has none" };
+        terms.push(Term {
+            what: "eddies on the grains",
+            keep,
+            error: None,
+            because: format!(
+                "{} {EDDIES}: near the onset they decide, beyond they change less than the error of a mean{has}",
+                if keep { "θ below" } else { "θ above" }
+            ),
+            source: MAURIN,
+        });
+        terms.push(Term {
+            what: "side walls",
+            keep: grains.walls,
+            error: None,
+            because: if grains.walls {
+                "their friction decides the rate of a narrow flume".into()
+            } else {
+                "there are none".into()
+            },
+            source: MAURIN,
+        });
+        let across = grains.size[0].min(if grains.walls { grains.size[0] } else { grains.size[1] }) / flow.d;
+        terms.push(Term {
+            what: "large cell",
+            keep: false,
+            error: None,
+            because: format!(
+                "{} d: 10 d squared, or 100 d of a flume, is converged within the error of 25 s",
+                significant(across, 3)
+            ),
+            source: MAURIN,
+        });
+        if grains.slice {
+            let deep = grains.layers - flow.layers();
+            terms.push(Term {
+                what: "deep bed",
+                keep: deep < 3.0,
+                error: None,
+                because: format!("{} layers lie under the moving ones", significant(deep.max(0.0), 2)),
+                source: CHASSAGNE,
+            });
+        }
+    }
+    Advice { numbers: flow.numbers(), least: flow.least(), terms }
+}

@@ -1,0 +1,86 @@
+//! `bedload advise`: the least model that a scene needs, and what can go.
+
+use std::fs;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use super::{CaseArgs, CliError, answer, say};
+use crate::advise;
+use crate::units::significant;
+
+/// The least model that serves a scene, and term by term what can go and what that costs.
+#[derive(Debug, Args)]
+pub(super) struct Advise {
+    #[command(flatten)]
+    case: CaseArgs,
+    /// Largest relative change of the transport rate that a term may make and still go
+    #[arg(long, value_name = "SHARE", default_value_t = 0.05)]
+    tolerance: f64,
+    /// Write a case of that model for this scene
+    #[arg(long, value_name = "FILE")]
+    write: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long)]
+    force: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub(super) json: bool,
+}
+
+impl Advise {
+    pub(super) fn execute(self) -> Result<(), CliError> {
+        if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
+            let message = format!("--tolerance {} is not a share above 0", self.tolerance);
+            return Err(CliError::Usage { message, hint: "0.05 is five per cent".into() });
+        }
+        let advice = advise::advise(&self.case.case, &self.case.overrides, self.tolerance)?;
+        let written = self.save(&advice)?;
+        if self.json {
+            let numbers = advice.numbers.iter().map(|n| json!({ "name": n.name, "value": n.value, "says": n.says }));
+            let terms = advice.terms.iter().map(|t| {
+                json!({ "what": t.what, "keep": t.keep, "error": t.error, "because": t.because, "source": t.source })
+            });
+            let least = &advice.least;
+            return Ok(answer(&json!({
+                "status": "done",
+                "model": least.kind,
+                "because": least.because,
+                "template": least.template,
+                "numbers": numbers.collect::<Vec<_>>(),
+                "terms": terms.collect::<Vec<_>>(),
+                "written": written,
+            }))?);
+        }
+        let mut text = format!("{}: {}\n  {}\n\n", self.case.case, advice.least.kind, advice.least.because);
+        for number in &advice.numbers {
+            text += &format!("  {:<36} {:>9}  {}\n", number.name, significant(number.value, 3), number.says);
+        }
+        text += if advice.terms.is_empty() { "" } else { "\n" };
+        for term in &advice.terms {
+            let verdict = if term.keep { "keep" } else { "drop" };
+            text += &format!("  {verdict} {:<36} {} ({})\n", term.what, term.because, term.source);
+        }
+        text += &match written {
+            Some(file) => format!("\nwrote {file}; next: bedload run {file}\n"),
+            None if self.write.is_some() => "\nthe case that was given is of that model: nothing was written\n".into(),
+            None => String::new(),
+        };
+        Ok(say(&text)?)
+    }
+
+    /// Writes the case; `None` if none was asked for, or the one that was given serves.
+    fn save(&self, advice: &advise::Advice) -> Result<Option<String>, CliError> {
+        let Some(file) = &self.write else { return Ok(None) };
+        let Some(text) = advice.case()? else { return Ok(None) };
+        let name = file.display().to_string();
+        let refused = |message: String, hint: &str| CliError::Usage { message, hint: hint.into() };
+        if file.exists() && !self.force {
+            return Err(refused(format!("{name} is there already"), "give another name, or --force to replace it"));
+        }
+        fs::write(file, text)
+            .map_err(|error| refused(format!("cannot write {name}: {error}"), "give another place"))?;
+        Ok(Some(name))
+    }
+}

@@ -1,0 +1,46 @@
+//! `bedload chart`: speed against accuracy of the models and settings that answer one scene.
+
+use clap::Args;
+
+use super::study::StudyArgs;
+use super::{CaseArgs, CliError, word};
+use crate::study::chart::{self, Request};
+
+/// What each model and setting of a scene costs, and how far its answer lies from the best one.
+#[derive(Debug, Args)]
+pub(super) struct Chart {
+    /// The scene, and other models of it: files or shipped cases; --set is for the first
+    #[arg(value_name = "CASE", required = true, num_args = 1..)]
+    cases: Vec<String>,
+    /// Change a value of the first case: table.key=value; an empty value removes the key
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
+    /// The number that is judged: a name in summary.json [default: the transport rate, or what the model has instead]
+    #[arg(long, value_name = "NAME")]
+    quantity: Option<String>,
+    /// What errors are measured against: the folder of a finished run, exact or finest [default: the best there is]
+    #[arg(long, value_name = "RUN")]
+    reference: Option<String>,
+    #[command(flatten)]
+    pub(super) study: StudyArgs,
+}
+
+impl Chart {
+    pub(super) fn execute(mut self) -> Result<(), CliError> {
+        // Points side by side would share the processor and spoil each other's times.
+        self.study.threads.get_or_insert(1);
+        let request = Request {
+            cases: self.cases.clone(),
+            overrides: self.overrides.clone(),
+            quantity: self.quantity,
+            reference: self.reference,
+        };
+        let (plan, judge) = chart::plan(&request)?;
+        let mut cases = self.cases.into_iter();
+        let case = CaseArgs { case: cases.next().unwrap_or_default(), overrides: self.overrides };
+        let mut options: Vec<String> = cases.map(|case| word(&case)).collect();
+        options.extend(request.quantity.map(|name| format!("--quantity {}", word(&name))));
+        options.extend(request.reference.map(|run| format!("--reference {}", word(&run))));
+        self.study.conduct(&case, &plan, judge, &options)
+    }
+}

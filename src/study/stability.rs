@@ -1,0 +1,393 @@
+//! `stability`: where a method holds, and how it fails beyond.
+//!
+//! The case is run at every value of one key or a grid of two. Each point falls into one class: it holds, it holds but its answer is
+//! wrong, its iteration does not converge, it leaves the numbers, it finds that no such flow exists, or the case is refused before it
+//! is run. Between two neighbours along the first key of which only one holds, the limit is found by bisection.
+
+use std::collections::BTreeMap;
+
+use serde_json::json;
+
+use super::chart::time_text;
+use super::converge::{Judge, error_text};
+use super::mesh::ClosedForm;
+use super::range::{MOST, Varied, number_and_unit, parse};
+use super::{Judgement, Plan, Point, Row, StudyError};
+use crate::case::CaseError;
+use crate::plot::{Axis, Curve, Figure, Marker, Panel, Scale};
+use crate::problem::Problem;
+use crate::result::quantity::{self as q, Quantity};
+use crate::result::{Quiet, Results, Status};
+use crate::units::significant;
+
+/// What is judged: the first of these that a point and its closed form have.
+const JUDGED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
+/// A point whose neighbour holds is solved again between them if it takes no longer than this [s].
+const PATIENCE: f64 = 30.0;
+/// Relative width to which a limit is bisected.
+const WIDTH: f64 = 1e-3;
+/// Errors below this are round-off and drawn there.
+const ROUND_OFF: f64 = 1e-16;
+/// Most solutions for one limit.
+const HALVINGS: usize = 24;
+
+/// What the user asks for.
+#[derive(Clone, Debug)]
+pub struct Request {
+    /// file or shipped case
+    pub case: String,
+    /// `--set` arguments
+    pub overrides: Vec<String>,
+    /// one or two `--over` arguments
+    pub over: Vec<String>,
+    /// largest error of an answer that holds
+    pub tolerance: f64,
+}
+
+/// What came of a point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Class {
+    /// solved, and as accurate as wanted where a closed form says
+    Holds,
+    /// solved, and further from the closed form than the tolerance
+    Inaccurate,
+    /// the iteration ends without a solution
+    NotConverged,
+    /// a number leaves the range of numbers, or a grain its place
+    Diverged,
+    /// the equations have no such flow, or the answer does not balance
+    Unphysical,
+    /// the case is refused before it is run
+    Refused,
+}
+
+impl Class {
+    const ALL: [Self; 6] =
+        [Self::Holds, Self::Inaccurate, Self::NotConverged, Self::Diverged, Self::Unphysical, Self::Refused];
+
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Inaccurate => "holds, but inaccurate",
+            Self::NotConverged => "not converged",
+            Self::Diverged => "diverged",
+            Self::Unphysical => "unphysical",
+            Self::Refused => "refused",
+        }
+    }
+
+    /// The class of a failure by its code.
+    fn of_code(code: &str) -> Self {
+        match code {
+            "not-converged" | "no-root" | "unsettled" => Self::NotConverged,
+            "not-finite" | "overlap" | "grain-lost" => Self::Diverged,
+            "step-too-long" | "period-too-short" | "grain-count" => Self::Refused,
+            _ => Self::Unphysical,
+        }
+    }
+
+    fn marker(self) -> Marker {
+        match self {
+            Self::Holds => Marker::Circle,
+            Self::Inaccurate => Marker::Triangle,
+            Self::Refused => Marker::Square,
+            Self::NotConverged | Self::Diverged | Self::Unphysical => Marker::Cross,
+        }
+    }
+}
+
+/// A point with its class, the error of its answer, and why it fails.
+#[derive(Clone, Debug)]
+struct Found {
+    class: Class,
+    error: Option<f64>,
+    reason: String,
+}
+
+/// A limit along the first key.
+#[derive(Clone, Debug)]
+struct Limit {
+    series: String,
+    /// value with which the method holds, value with which it does not, and what that is then
+    holds: f64,
+    fails: f64,
+    class: Class,
+    reason: String,
+}
+
+/// The plan of a map of stability, and how to judge it.
+///
+/// # Errors
+/// [`StudyError::BadOver`] with the argument that cannot be read; [`StudyError::Case`].
+pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
+    let bad = |reason: &str| StudyError::BadOver { argument: request.over.join(" --over "), reason: reason.into() };
+    let varied: Vec<Varied> = request.over.iter().map(|argument| parse(argument)).collect::<Result<_, _>>()?;
+    let (first, second) = match &varied[..] {
+        [first] => (first, None),
+        [first, second] => (first, Some(second)),
+        _ => return Err(bad("one key or two")),
+    };
+    if first.values.len() * second.map_or(1, |v| v.values.len()) > MOST {
+        return Err(bad("the grid is too large"));
+    }
+    if first.values.iter().any(|v| number_and_unit(v).is_none()) {
+        return Err(bad("the first key takes numbers: its limit is bisected"));
+    }
+    let rows = second.map_or_else(|| vec![None], |v| v.values.iter().map(Some).collect());
+    let point = |row: Option<&String>, value: &String| {
+        let mut overrides = vec![format!("{}={value}", first.key)];
+        overrides.extend(second.zip(row).map(|(second, row)| format!("{}={row}", second.key)));
+        Point {
+            case: None,
+            series: second.zip(row).map(|(second, row)| format!("{} = {row}", last(&second.key))).unwrap_or_default(),
+            values: std::iter::once(value).chain(row).cloned().collect(),
+            overrides,
+        }
+    };
+    let points = rows.iter().flat_map(|row| first.values.iter().map(|value| point(*row, value))).collect();
+    let plan = Plan {
+        verb: "stability",
+        case: request.case.clone(),
+        overrides: request.overrides.clone(),
+        options: request.over.iter().map(|argument| ("over".into(), argument.clone())).collect(),
+        varied: varied.iter().map(|v| v.key.clone()).collect(),
+        points,
+        repeats: 1,
+    };
+    let request = request.clone();
+    Ok((plan, Box::new(move |rows: &[Row]| judge(&request, &varied, rows))))
+}
+
+fn last(key: &str) -> &str {
+    key.rsplit('.').next().unwrap_or(key)
+}
+
+/// The class of a row, of which only the results are known.
+fn classify(request: &Request, row: &Row) -> Found {
+    let failed = |class: Class| Found { class, error: None, reason: row.reason() };
+    match (&row.error, row.status) {
+        (Some(error), Status::Failed) if row.sha256.is_some() => failed(Class::of_code(&error.code)),
+        (_, Status::Failed) => failed(Class::Refused),
+        _ => {
+            let overrides = [&request.overrides[..], &row.point.overrides].concat();
+            let problem = Problem::load(&request.case, &overrides).ok();
+            solved(request, problem.and_then(|(_, problem)| ClosedForm::of(&problem)), &row.results)
+        }
+    }
+}
+
+fn solved(request: &Request, form: Option<ClosedForm>, results: &Results) -> Found {
+    let error = form.and_then(|form| {
+        let of = |q: &&&Quantity| Some((results.get(q.name)?, form.results().get(q.name).filter(|x| *x != 0.0)?));
+        JUDGED.iter().find_map(|q| of(&q)).map(|(value, exact)| (value / exact - 1.0).abs().max(ROUND_OFF))
+    });
+    let class = if error.is_some_and(|e| e > request.tolerance) { Class::Inaccurate } else { Class::Holds };
+    let reason = error.map(|e| format!("error {}", error_text(e))).unwrap_or_default();
+    Found { class, error, reason }
+}
+
+/// Runs the case with one more value, without a folder.
+fn trial(request: &Request, overrides: &[String]) -> Found {
+    let failed = |class, reason: String| Found { class, error: None, reason };
+    let load = || -> Result<_, CaseError> {
+        Problem::load(&request.case, &[&request.overrides[..], overrides].concat()).map(|(_, problem)| problem)
+    };
+    match load() {
+        Err(error) => {
+            let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
+            failed(Class::Refused, reason)
+        }
+        Ok(problem) => match crate::run(&problem, &mut Quiet) {
+            Ok(outcome) => solved(request, ClosedForm::of(&problem), &outcome.results),
+            Err(failure) => failed(Class::of_code(failure.error.code()), failure.error.to_string()),
+        },
+    }
+}
+
+/// The limits between neighbours of a series, each bisected.
+fn limits(request: &Request, varied: &[Varied], rows: &[Row], found: &[Found]) -> Vec<Limit> {
+    let Some(key) = varied.first() else { return Vec::new() };
+    let place = |row: &'_ Row| -> Option<(f64, String)> {
+        row.point.values.first().and_then(|v| number_and_unit(v)).map(|(x, unit)| (x, unit.to_owned()))
+    };
+    let mut limits = Vec::new();
+    for (pair, what) in rows.windows(2).zip(found.windows(2)) {
+        let ([a, b], [x, y]) = (pair, what) else { continue };
+        let alike = a.point.series == b.point.series && (x.class == Class::Holds) != (y.class == Class::Holds);
+        let (Some((va, unit)), Some((vb, _))) = (place(a), place(b)) else { continue };
+        if !alike {
+            continue;
+        }
+        let (mut holds, mut fails, mut worst) =
+            if x.class == Class::Holds { (va, vb, y.clone()) } else { (vb, va, x.clone()) };
+        if a.cost.solve_s.max(b.cost.solve_s) < PATIENCE {
+            for _ in 0..HALVINGS {
+                let middle = if holds > 0.0 && fails > 0.0 { (holds * fails).sqrt() } else { 0.5 * (holds + fails) };
+                if (holds - fails).abs() <= WIDTH * holds.abs().max(fails.abs()) {
+                    break;
+                }
+                let mut overrides = vec![format!("{}={middle:e} {unit}", key.key).trim().to_owned()];
+                overrides.extend(a.point.overrides.iter().skip(1).cloned());
+                let one = trial(request, &overrides);
+                if one.class == Class::Holds {
+                    holds = middle;
+                } else {
+                    (fails, worst) = (middle, one);
+                }
+            }
+        }
+        let series = a.point.series.clone();
+        limits.push(Limit { series, holds, fails, class: worst.class, reason: worst.reason });
+    }
+    limits
+}
+
+fn judge(request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
+    let found: Vec<Found> = rows.iter().map(|row| classify(request, row)).collect();
+    let keys: Vec<&str> = varied.iter().map(|v| v.key.as_str()).collect();
+    let unit = rows.first().and_then(|row| row.point.values.first()).and_then(|v| number_and_unit(v)).map(|p| p.1);
+    let unit = unit.filter(|u| !u.is_empty()).map(|u| format!(" {u}")).unwrap_or_default();
+    let limits = limits(request, varied, rows, &found);
+    let mut findings: Vec<(String, String)> = Vec::new();
+    for limit in &limits {
+        let label = if limit.series.is_empty() { "limit".into() } else { format!("limit, {}", limit.series) };
+        let side = if limit.holds < limit.fails { "up to" } else { "from" };
+        let text = format!(
+            "holds {side} {} = {}{unit}; at {}{unit} {}: {}",
+            last(keys.first().copied().unwrap_or_default()),
+            significant(limit.holds, 4),
+            significant(limit.fails, 4),
+            limit.class.name(),
+            limit.reason
+        );
+        findings.push((label, text));
+    }
+    let mut modes: BTreeMap<Class, (usize, &Row, &str)> = BTreeMap::new();
+    for (row, what) in rows.iter().zip(&found) {
+        modes.entry(what.class).or_insert((0, row, &what.reason)).0 += 1;
+    }
+    for (class, (count, row, reason)) in &modes {
+        let first = format!("first at {}", row.point.name(&request.names(varied)));
+        let why = if reason.is_empty() { String::new() } else { format!(": {reason}") };
+        findings.push((class.name().into(), format!("{count} of {} points, {first}{why}", rows.len())));
+    }
+    let class = |what: &Found| Class::ALL.iter().position(|c| *c == what.class).map(|i| i as f64);
+    let mut judgement = Judgement {
+        subtitle: format!("Over {}; an answer holds within {}.", keys.join(" and "), error_text(request.tolerance)),
+        measures: vec![
+            ("class".into(), found.iter().map(class).collect()),
+            ("error".into(), found.iter().map(|what| what.error).collect()),
+        ],
+        findings,
+        ..Judgement::default()
+    };
+    let facts = limits.iter().map(|l| {
+        json!({ "series": l.series, "holds": l.holds, "fails": l.fails, "class": l.class.name(), "reason": l.reason })
+    });
+    judgement.facts.insert("limits".into(), facts.collect());
+    judgement.facts.insert("classes".into(), Class::ALL.map(Class::name).to_vec().into());
+    judgement.figures.push(figure(varied, rows, &found));
+    judgement
+}
+
+impl Request {
+    fn names(&self, varied: &[Varied]) -> Vec<String> {
+        varied.iter().map(|v| v.key.clone()).collect()
+    }
+}
+
+/// The classes over one key (and the error of what has one) or over two.
+fn figure(varied: &[Varied], rows: &[Row], found: &[Found]) -> Figure {
+    let number = |row: &Row, i: usize| row.point.values.get(i).and_then(|v| number_and_unit(v)).map(|p| p.0);
+    let unit = |i: usize| {
+        let value = varied.get(i).and_then(|v| v.values.first()).and_then(|v| number_and_unit(v));
+        value.map_or("", |p| p.1).to_owned()
+    };
+    let axis = |i: usize| {
+        let key = varied.get(i).map_or("", |v| v.key.as_str());
+        let values = || rows.iter().filter_map(move |row| number(row, i));
+        let (low, high) = values().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
+        let scale = if low > 0.0 && high > 20.0 * low { Scale::Log } else { Scale::Linear };
+        Axis { scale, ..Axis::linear(key, &unit(i)) }
+    };
+    let map = varied.len() > 1 && rows.iter().all(|row| number(row, 1).is_some());
+    let errors = found.iter().filter_map(|what| what.error);
+    let top = 10.0 * errors.clone().fold(0.1, f64::max);
+    let error = !map && found.iter().any(|what| what.error.is_some());
+    let height = |row: &Row, what: &Found| match (map, error) {
+        (true, _) => number(row, 1),
+        (false, true) => Some(what.error.unwrap_or(top)),
+        (false, false) => Class::ALL.iter().position(|c| *c == what.class).map(|i| i as f64),
+    };
+    let curve = |(i, class): (usize, &Class)| {
+        let of = rows.iter().zip(found).filter(|(_, what)| what.class == *class);
+        let of: Vec<_> = of.filter_map(|(row, what)| Some((number(row, 0)?, height(row, what)?, row, what))).collect();
+        let note = |row: &Row, what: &Found| {
+            let why = if what.reason.is_empty() { String::new() } else { format!(": {}", what.reason) };
+            let names: Vec<String> = varied.iter().map(|v| v.key.clone()).collect();
+            format!("{}: {}{why} ({})", row.point.name(&names), class.name(), time_text(row.cost.solve_s))
+        };
+        Curve {
+            name: class.name().into(),
+            points: of.iter().map(|p| Some((p.0, p.1))).collect(),
+            notes: of.iter().map(|p| note(p.2, p.3)).collect(),
+            colour: [3, 5, 2, 4, 1, 0][i],
+            marker: Some(class.marker()),
+            ..Curve::default()
+        }
+    };
+    let curves = Class::ALL.iter().enumerate().map(curve).filter(|c| !c.points.is_empty()).collect();
+    Figure {
+        stem: "stability".into(),
+        caption: format!(
+            "Where the method holds, over {}.",
+            varied.iter().map(|v| v.key.as_str()).collect::<Vec<_>>().join(" and ")
+        ),
+        y: match (map, error) {
+            (true, _) => axis(1),
+            (false, true) => Axis::log("error; what fails at the top", "1"),
+            (false, false) => Axis::linear("class", "1"),
+        },
+        panels: vec![Panel { x: axis(0), curves }],
+        levels: Vec::new(),
+        tint_below: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn request(case: &str, over: &[&str]) -> Request {
+        Request {
+            case: case.into(),
+            overrides: Vec::new(),
+            over: over.iter().map(|o| (*o).to_owned()).collect(),
+            tolerance: 0.01,
+        }
+    }
+
+    #[test]
+    fn one_or_two_numbers_are_varied() {
+        for (over, words) in [
+            (&["model.form=mixed,two-fluid"][..], "takes numbers"),
+            (&["grid.cells=1,2", "flow.slope=1,2", "bed.level=1,2"], "one key or two"),
+        ] {
+            let said = plan(&request("laminar_1d_ouriemi", over)).err().map(|e| e.to_string()).unwrap_or_default();
+            assert!(said.contains(words), "{said}");
+        }
+        let (plan, _) =
+            plan(&request("laminar_1d_ouriemi", &["grid.cells=24,48", "model.form=mixed,two-fluid"])).unwrap();
+        assert_eq!(plan.points.len(), 4);
+        assert_eq!(plan.points[3].series, "form = two-fluid");
+    }
+
+    #[test]
+    fn a_failure_has_a_class() {
+        assert_eq!(Class::of_code("not-converged"), Class::NotConverged);
+        assert_eq!(Class::of_code("not-finite"), Class::Diverged);
+        assert_eq!(Class::of_code("whole-bed-moves"), Class::Unphysical);
+    }
+}
