@@ -90,7 +90,6 @@ pub static CASES: &[(&str, &str)] = shipped![
     "trial_2d_rolling",
     "trial_3d_cluster",
     "trial_3d_ledger",
-    "two_fluid_1d_avalanche",
 ];
 
 /// Content of the shipped case of that name.

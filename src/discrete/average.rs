@@ -186,7 +186,9 @@ impl Averages {
                 for (sum, x) in momentum[s].iter_mut().zip([u, v, w]) {
                     *sum += part * x;
                 }
-                for (sum, x) in squares[s].iter_mut().zip([u * u, v * v, w * w, u * w, v * w, w * dot(velocity, velocity)]) {
+                for (sum, x) in
+                    squares[s].iter_mut().zip([u * u, v * v, w * w, u * w, v * w, w * dot(velocity, velocity)])
+                {
                     *sum += part * x;
                 }
                 for (sum, x) in taken[s].iter_mut().zip(takes) {

@@ -168,7 +168,7 @@ impl Judge<'_> {
             let points = seen.iter().map(|(x, y)| Some(((*x)?.0, (*y)?))).collect();
             let errors = seen.iter().map(|(x, _)| (*x)?.1).collect();
             let (name, marker) = ((*name).into(), Some(*marker));
-            curves.push(Curve { name, points, colour: 2 + colour, line: None, marker, errors });
+            curves.push(Curve { name, points, colour: 2 + colour, marker, errors, ..Curve::default() });
         }
         (curves.len() > laws.len()).then_some(Panel { x, curves })
     }

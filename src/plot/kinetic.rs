@@ -51,7 +51,7 @@ impl Scene<'_> {
     }
 
     fn curve(name: &str, (colour, dash): (usize, Dash), points: Vec<Option<(f64, f64)>>) -> Curve {
-        Curve { name: name.into(), points, colour, line: Some(dash), marker: None, errors: Vec::new() }
+        Curve { name: name.into(), points, colour, line: Some(dash), ..Curve::default() }
     }
 
     /// Granular temperature, and the budget of the fluctuation energy, over the elevation.
@@ -108,20 +108,25 @@ impl Scene<'_> {
         let friction = |row: usize| Some(self.at(&quantity::TAU_PARTICLE, row)? / self.at(&quantity::P_PARTICLE, row)?);
         let phi = |row: usize| self.at(&quantity::PHI, row);
         let dense = Inertial::default();
-        let figure = |stem: &str, title: &str, value: &dyn Fn(usize) -> Option<f64>, law: (&str, &dyn Fn(f64) -> f64)| Figure {
-            stem: stem.into(),
-            caption: format!("{case}: {title} over the inertial number."),
-            y: Axis::linear(title, ""),
-            panels: vec![Panel {
-                x: Axis::log("inertial number I", ""),
-                curves: vec![
-                    Self::curve("here", (2, Dash::Solid), over(value)),
-                    Self::curve(law.0, (0, Dash::DashDotted), over(&|row| Some(law.1(self.at(&quantity::INERTIAL_NUMBER, row)?)))),
-                ],
-            }],
-            levels: Vec::new(),
-            tint_below: None,
-        };
+        let figure =
+            |stem: &str, title: &str, value: &dyn Fn(usize) -> Option<f64>, law: (&str, &dyn Fn(f64) -> f64)| Figure {
+                stem: stem.into(),
+                caption: format!("{case}: {title} over the inertial number."),
+                y: Axis::linear(title, ""),
+                panels: vec![Panel {
+                    x: Axis::log("inertial number I", ""),
+                    curves: vec![
+                        Self::curve("here", (2, Dash::Solid), over(value)),
+                        Self::curve(
+                            law.0,
+                            (0, Dash::DashDotted),
+                            over(&|row| Some(law.1(self.at(&quantity::INERTIAL_NUMBER, row)?))),
+                        ),
+                    ],
+                }],
+                levels: Vec::new(),
+                tint_below: None,
+            };
         vec![
             figure("friction_inertial", "friction τₚ/Pₚ", &friction, ("μ(I)", &|i| dense.mu(i))),
             figure("fraction_inertial", "solid fraction φ", &phi, ("φ(I)", &|i| PHI_C / (1.0 + dense.b * i))),

@@ -2,7 +2,7 @@
 
 use super::face::Mobilised;
 use super::laws::Moving;
-use super::state::{Cell, GRAINS, HEAT, LENGTH, LOGIT, SIZE, Unknowns, VOLUME, solid};
+use super::state::{Cell, HEAT, LENGTH, LOGIT, SIZE, Unknowns, VOLUME, solid};
 use super::system::{Column, Linear, Memory};
 
 /// A step changes the logit of the solid fraction and the logarithm of the temperature by this much at most.
@@ -105,23 +105,24 @@ impl Column {
                 }
             }
             self.accumulate(state);
-            // By the step itself: the difference of what is left of large velocities is round-off where grains move as one.
-            for (i, (r, from)) in mobilised.iter_mut().zip(&shear).enumerate() {
-                let gain = |i: usize| velocity * step[SIZE * i + GRAINS];
-                let change = match i.checked_sub(1) {
-                    None => gain(0) / (0.5 * self.widths[0]),
-                    Some(j) => (gain(i) - gain(j)) / (0.5 * (self.widths[i] + self.widths[j])),
-                };
-                *r = r.after(*from, change, rate);
+            for ((r, from), to) in mobilised.iter_mut().zip(&mut shear).zip(self.shear(state)) {
+                *r = r.after(*from, to - *from, rate);
+                *from = to;
             }
-            shear = self.shear(state).collect();
             let balanced = || {
                 let missed = self.missed(state, memory, &mobilised);
                 missed.iter().flatten().all(|force| force.abs() <= allowed)
             };
             if largest <= pace.tolerance && (pace.force.is_infinite() || balanced()) {
+                // What a steady flow reports is the residual that it ends with.
+                let last = if memory.rate > 0.0 {
+                    norm
+                } else {
+                    self.linearise(state, memory, &mobilised, linear);
+                    linear.norm(state)
+                };
                 linear.mobilised = mobilised;
-                return Ok((iteration + 1, norm));
+                return Ok((iteration + 1, last));
             }
         }
         Err(Stalled { residual: best, iterations: pace.most })

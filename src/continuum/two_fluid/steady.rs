@@ -22,7 +22,7 @@ const MOST: usize = 1300;
 const MOST_IN_ALL: usize = 4000;
 /// Pace of a step of the march, of the last solution, and of its refinement.
 const ROUGH: Pace = Pace { tolerance: 1e-2, force: f64::INFINITY, most: 8 };
-const FINE: Pace = Pace { tolerance: 1e-8, force: 1e-10, most: 40 };
+const FINE: Pace = Pace { tolerance: 1e-8, force: 1e-8, most: 40 };
 /// First and smallest step of the logarithm of the drive.
 const WALK: (f64, f64) = (0.05, 1e-3);
 
@@ -158,7 +158,8 @@ fn ways(column: &Column, shields: f64) -> Vec<(usize, Start, f64)> {
     let others = TRIALS[1..].iter().map(|trial| layer(*trial, 1.0));
     let mut ways = Vec::new();
     if column.laws.slides() {
-        ways.push((TRIALS[0].0, Start::Film, 1.0));
+        // On its own cells: its surface is too sharp to be handed to finer ones.
+        ways.push((column.cells(), Start::Film, 1.0));
     }
     if shields < WEAK[0] {
         ways.extend([rest, straight]);

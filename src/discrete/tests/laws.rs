@@ -108,7 +108,11 @@ fn the_flux_of_fluctuation_energy_is_that_of_its_grains_and_moves_with_them() {
     // <w'v'^2>/2 by hand, and the same with a wind on top: what fluctuates does not see it.
     let velocities = [[1.0, 0.0, 0.5], [3.0, 2.0, -0.5], [1.0, -2.0, 1.0], [3.0, 0.0, -1.0]];
     let mean = [2.0, 0.0, 0.0];
-    let by_hand: f64 = velocities.iter().map(|v| 0.5 * v[2] * (0..3).map(|k| (v[k] - mean[k]) * (v[k] - mean[k])).sum::<f64>()).sum::<f64>() / 4.0;
+    let by_hand: f64 = velocities
+        .iter()
+        .map(|v| 0.5 * v[2] * (0..3).map(|k| (v[k] - mean[k]) * (v[k] - mean[k])).sum::<f64>())
+        .sum::<f64>()
+        / 4.0;
     let seen = |wind: [f64; 3]| {
         let moved = |v: [f64; 3]| std::array::from_fn(|k| v[k] + wind[k]);
         let grains: Vec<Grain> =

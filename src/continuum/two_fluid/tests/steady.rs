@@ -122,26 +122,13 @@ fn without_shear_nothing_moves_but_what_seeps() {
     let deep = &levels.cells[5];
     assert_relative_eq!(deep.drag, (1.0 - deep.phi) * column.laws.drive[0], max_relative = 1e-3);
     // Contacts carry what the slope drives.
-    let driven: f64 = levels.cells[5..].iter().map(|level| {
-        level.dz * (level.phi * column.laws.ratio + 1.0 - level.phi) * column.laws.drive[0]
-    }).sum();
-    assert_relative_eq!(levels.at(levels.cells[5].z - 0.5 * deep.dz, |level| level.contact).unwrap(), driven, max_relative = 1e-3);
-}
-
-#[test]
-fn a_dry_film_is_that_of_bagnold() {
-    let flow = flow("two_fluid_1d_avalanche", &[]);
-    let column = outcome::column(&flow, 240).unwrap();
-    let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
-    let levels = Levels::new(&column, &solved.state, &solved.mobilised);
-    // tan(24 deg) of the weight of grains and air over that of the grains in air: I = 0.094128, phi = 0.61/(1 + 0.31 I) = 0.592705.
-    let (i, phi) = (0.094_128, 0.592_705);
-    let height = column.solids / phi;
-    let scale = 2.0 / 3.0 * i * (phi * column.laws.weight / column.laws.ratio).sqrt();
-    let surface = scale * height.powf(1.5);
-    for level in levels.cells.iter().filter(|level| level.z < 0.9 * height) {
-        let exact = scale * (height.powf(1.5) - (height - level.z).powf(1.5));
-        assert!((level.v - exact).abs() < 0.01 * surface, "z {}: {} {exact}", level.z, level.v);
-        assert!((level.phi - phi).abs() < 2e-3, "z {}: phi {}", level.z, level.phi);
-    }
+    let driven: f64 = levels.cells[5..]
+        .iter()
+        .map(|level| level.dz * (level.phi * column.laws.ratio + 1.0 - level.phi) * column.laws.drive[0])
+        .sum();
+    assert_relative_eq!(
+        levels.at(levels.cells[5].z - 0.5 * deep.dz, |level| level.contact).unwrap(),
+        driven,
+        max_relative = 1e-3
+    );
 }
