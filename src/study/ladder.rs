@@ -27,7 +27,7 @@ pub(super) fn finest(problem: &Problem) -> Option<(String, Vec<String>)> {
     match problem.model {
         Model::Laminar(_) | Model::Bingham(_) => fine(4 * cells.max(400), exact_yield()),
         Model::SheetFlow(_) => fine(8 * cells.max(300), newton()),
-        Model::Duct(_) | Model::Cavity(_) => fine(128, newton()),
+        Model::Duct(_) | Model::Cavity(_) => fine(128, [newton(), vec!["grid.along=".into()]].concat()),
         Model::TwoFluid(_) => Some(("960 cells".into(), vec!["grid.cells=960".into()])),
         _ => None,
     }
@@ -38,6 +38,7 @@ pub(super) fn rungs(case: Option<&str>, problem: &Problem) -> Vec<Point> {
     let rungs = match &problem.model {
         Model::Laminar(_) | Model::Bingham(_) => plane(),
         Model::SheetFlow(_) => sheet(),
+        Model::Duct(duct) if duct.along.is_some() => whole_duct(),
         Model::Duct(_) | Model::Cavity(_) => section(),
         Model::TwoFluid(_) => two_fluid(),
         Model::Coupled(flow) => grains(flow.bed.discrete.duration, flow.bed.size, flow.bed.side_walls),
@@ -102,6 +103,11 @@ fn section() -> Vec<Rung> {
     let dual = [12, 24, 48].map(|cells| with_cells("first-order", cells, &[&first[..], &exact_yield()].concat()));
     let method = ["model.method=newton".to_owned()];
     [exact.to_vec(), dual.to_vec(), regularised(&method, &LAWS[..2], &[12, 24, 48])].concat()
+}
+
+/// The whole duct costs so much that its rungs are few.
+fn whole_duct() -> Vec<Rung> {
+    [8, 12, 16, 20].map(|cells| with_cells("whole duct", cells, &[])).to_vec()
 }
 
 /// The closures of both columns of Chassagne et al. (2023) on some meshes.
@@ -171,6 +177,7 @@ mod tests {
         assert_eq!(counts("section_2d_square_bed"), [5, 3, 12, 12]);
         // A quarter of that cell is less than a case may have.
         assert_eq!(counts("coupled_3d_chassagne_quick").iter().sum::<usize>(), 9);
+        assert_eq!(counts("section_3d_square_bed"), [4]);
         assert_eq!(counts("kinetic_1d_theta06"), [4, 4]);
         assert_eq!(counts("exact_1d_ouriemi"), [1]);
     }
