@@ -5,7 +5,7 @@ use crate::closures::dilatancy::{phi_i, phi_iv};
 use crate::closures::drag::{carman_kozeny, dallavalle, dallavalle_grain};
 use crate::closures::{Info, friction, mixing_length, wall};
 use crate::continuum::exact::{bagnold, bingham, log_law, ouriemi};
-use crate::continuum::{laminar, sheet_flow, two_fluid};
+use crate::continuum::{laminar, shear_cell, sheet_flow, two_fluid};
 use crate::discrete::{bed as grain_bed, couple, impact, trials};
 use crate::problem::{Contents, DuctFlow, Model, Problem, RegularisedBed};
 use crate::result::{Failure, Outcome, Watch};
@@ -29,6 +29,7 @@ pub fn run(problem: &Problem, watch: &mut dyn Watch) -> Result<Outcome, Failure>
         Model::Bingham(plane) => laminar::run_bingham(plane, problem.cells, watch),
         Model::SheetFlow(flow) => sheet_flow::run(flow, problem.cells, watch),
         Model::TwoFluid(flow) => two_fluid::run(flow, problem.cells, watch),
+        Model::ShearCell(cell) => shear_cell::run(cell, problem.cells, watch),
         Model::Duct(flow) => section::run(flow, problem.cells, watch),
         Model::Cavity(flow) => section::run_cavity(flow, problem.cells, watch),
         Model::Grains(bed) => grain_bed::run(bed, watch),
@@ -51,6 +52,7 @@ pub fn equations(problem: &Problem) -> String {
         Model::Bingham(plane) => laminar::bingham_equations(plane),
         Model::SheetFlow(flow) => sheet_flow::equations(flow),
         Model::TwoFluid(flow) => two_fluid::equations(flow),
+        Model::ShearCell(cell) => shear_cell::equations(cell),
         Model::Duct(flow) => section::equations(flow),
         Model::Cavity(flow) => section::cavity_equations(flow),
         Model::Grains(bed) => grain_bed::equations(bed),
@@ -78,6 +80,11 @@ pub fn closures(problem: &Problem) -> Vec<&'static Info> {
             laws.extend(flow.granular.parts());
             laws.extend([flow.elastic.info(), flow.static_friction.info(), &dallavalle_grain::INFO]);
             laws.extend([flow.mixing_length.info(), flow.dispersion.info()]);
+            laws
+        }
+        Model::ShearCell(cell) => {
+            let mut laws = vec![cell.granular.info()];
+            laws.extend(cell.granular.parts());
             laws
         }
         Model::BinghamPlane(_) | Model::Bingham(_) | Model::Duct(_) | Model::Cavity(_) => Vec::new(),

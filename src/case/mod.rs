@@ -19,6 +19,7 @@ mod render;
 pub mod scene;
 pub mod schema;
 pub mod section;
+pub mod shear_cell;
 pub mod sheet;
 pub mod shipped;
 pub mod tables;

@@ -14,6 +14,7 @@ use super::grain_tables::{
 use super::section::{
     BedFlow, BedModel, CavityFlow, CavityGrid, CavityModel, DuctFlow, DuctModel, SectionGrid, SectionSolver,
 };
+use super::shear_cell::{ShearCell as ShearCellFlow, ShearCellClosures, ShearCellModel};
 use super::sheet::{SheetBed, SheetClosures, SheetFlowTable, SheetGrid, SheetModel, SheetRegularisation, SheetSolver};
 use super::tables::{
     About, BagnoldModel, Bed, BedClosures, BinghamFluid, BinghamKindModel, BinghamModel, Film, FilmClosures, FilmFlow,
@@ -286,6 +287,20 @@ scenes! {
         /// The flow in time.
         #[serde(default)]
         solver: TwoFluidSolver,
+    }
+    /// Grains that collide between two walls, without fluid or gravity.
+    ShearCell ("shear-cell") {
+        /// The grains.
+        grains: CollidingGrains,
+        /// The gap between the walls, and what they do to the grains.
+        flow: ShearCellFlow,
+        /// The model.
+        model: ShearCellModel,
+        /// Laws.
+        closures: ShearCellClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
     }
     /// A bed of spheres with friction, grain by grain, at rest or down a slope.
     GrainsBed ("grains") {

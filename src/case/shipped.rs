@@ -57,6 +57,7 @@ pub static CASES: &[(&str, &str)] = shipped![
     "kinetic_1d_r40",
     "kinetic_1d_settling",
     "kinetic_1d_settling_oil",
+    "kinetic_1d_shear",
     "kinetic_1d_start",
     "kinetic_1d_theta02",
     "kinetic_1d_theta04",
@@ -92,6 +93,7 @@ pub static CASES: &[(&str, &str)] = shipped![
     "trial_2d_rolling",
     "trial_3d_cluster",
     "trial_3d_ledger",
+    "two_fluid_1d_avalanche",
 ];
 
 /// Content of the shipped case of that name.

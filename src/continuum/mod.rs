@@ -3,6 +3,7 @@
 mod bed_results;
 pub mod exact;
 pub mod laminar;
+pub mod shear_cell;
 pub mod sheet_flow;
 #[cfg(test)]
 mod tests;

@@ -5,6 +5,7 @@ mod coupled;
 mod grains;
 mod others;
 mod section;
+mod shear_cell;
 mod sheet;
 mod two_fluid;
 
@@ -14,6 +15,7 @@ pub use coupled::{Coupled, Surface};
 pub use grains::{GrainBed, Impact, Trial};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 pub use section::{CavityFlow, Contents, DuctFlow, Method, Outline, SectionMethod};
+pub use shear_cell::ShearCell;
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
 pub use two_fluid::{FluidStress, State, TwoFluid};
 
@@ -54,6 +56,8 @@ pub enum Model {
     SheetFlow(SheetFlow),
     /// grains and fluid as two fluids
     TwoFluid(TwoFluid),
+    /// grains that collide between two walls
+    ShearCell(ShearCell),
     /// flow along a duct, in its cross-section
     Duct(DuctFlow),
     /// flow in a cavity under a sliding lid
@@ -118,6 +122,9 @@ impl Problem {
             }
             Scene::TwoFluid(scene) => {
                 (two_fluid::two_fluid(scene, case.model, &mut faults).map(Model::TwoFluid), scene.grid.cells)
+            }
+            Scene::ShearCell(scene) => {
+                (shear_cell::shear_cell(scene, case.model, &mut faults).map(Model::ShearCell), scene.grid.cells)
             }
             Scene::Duct(scene) => (section::duct(scene, &mut faults).map(Model::Duct), scene.grid.cells),
             Scene::DuctBed(scene) => (section::bed(scene, case.model, &mut faults).map(Model::Duct), scene.grid.cells),

@@ -217,6 +217,9 @@ catalogue! {
     NEWTON_ITERATIONS = "newton_iterations", "Newton iterations", "N_N", "1", "linear systems solved, of all stages";
     SOLID_VOLUME = "solid_volume_m", "solid volume", "V", "m", "integral of φ over z";
     SEEPAGE = "seepage_velocity_m_s", "seepage velocity", "u_f(0)", "m/s", "velocity of the fluid through the lowest cell of the bed";
+    WALL_PRESSURE = "wall_pressure_Pa", "pressure on the walls", "p", "Pa", "of grains between two walls, the same at every height";
+    WALL_SHEAR = "wall_shear_stress_Pa", "shear stress on the walls", "τ", "Pa", "of grains between two walls, the same at every height";
+    WALL_HEAT = "wall_heat_W_m2", "fluctuation energy from the walls", "q_w", "W/m²", "that enters through both walls together";
     UNLIMITED = "unlimited_from_phi", "solid fraction from which saltation limits nothing", "φ_0", "1", "lowest solid fraction of the flow at which a kinetic part of the theory is not positive";
     REYNOLDS = "reynolds", "Reynolds number", "Re", "1", "ρ_f U_m H/η";
 }

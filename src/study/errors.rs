@@ -130,6 +130,7 @@ impl Focus {
             // The measures are those of a bed under two planes; sheet flow and grains have none of their own yet.
             Model::SheetFlow(_)
             | Model::TwoFluid(_)
+            | Model::ShearCell(_)
             | Model::Ouriemi(_)
             | Model::BinghamPlane(_)
             | Model::BagnoldFilm(_)

@@ -13,6 +13,7 @@ mod coupled;
 mod folder;
 mod grains;
 mod interruption;
+mod kinetic;
 mod mutate;
 mod never_panics;
 mod paths;

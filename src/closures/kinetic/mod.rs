@@ -13,7 +13,7 @@ pub mod static_friction;
 
 pub use drag_work::DragWork;
 pub use elastic::{Elastic, JohnsonJackson};
-pub use granular::{FrictionalCollisional, GarzoDufty, Granular, Kinetic, Limit};
+pub use granular::{FRICTIONAL_COLLISIONAL, FrictionalCollisional, GarzoDufty, Granular, Kinetic, Limit};
 pub use inertial::Inertial;
 pub use radial::Radial;
 pub use restitution::Dissipation;

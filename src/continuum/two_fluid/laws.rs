@@ -64,16 +64,6 @@ impl Laws {
         self.ratio.sqrt()
     }
 
-    /// Whether the weight of dry grains along the slope exceeds their friction at rest: all of them flow.
-    #[must_use]
-    pub fn slides(&self) -> bool {
-        let friction = match self.moving {
-            Moving::Kinetic(_) => self.mu_s,
-            Moving::Inertial(law) => law.mu_s,
-        };
-        self.drive[1] * self.ratio > friction * self.weight
-    }
-
     /// The laws of `flow`, scaled.
     #[must_use]
     pub fn scaled(flow: &TwoFluid) -> Self {

@@ -17,9 +17,6 @@ const SKY: (f64, f64) = (1e-3, 0.3);
 /// Share of phi_max that a guess stays below.
 const FULL: f64 = 0.99;
 
-/// Share of the friction above that at rest, and of the solid fraction at rest, that a guessed film has.
-const SLIDING: (f64, f64) = (0.1, 0.97);
-
 /// A first guess of the flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Start {
@@ -32,8 +29,6 @@ pub enum Start {
         /// thickness of the moving layer in units of the usual one
         thickness: f64,
     },
-    /// all grains slide down the slope
-    Film,
 }
 
 impl Column {
@@ -55,24 +50,7 @@ impl Column {
         match start {
             Start::Rest => self.at_rest(phi),
             Start::Layer { shields, thickness } => self.layer(phi, shields, thickness),
-            Start::Film => self.film(phi),
         }
-    }
-
-    /// Grains that flow as a film with one inertial number: v goes like 1 - (1 - z/h)^(3/2).
-    fn film(&self, phi: f64) -> Vec<Unknowns> {
-        let (laws, phi) = (&self.laws, phi * SLIDING.1);
-        let level = self.solids / phi;
-        let rate = SLIDING.0 * (phi * laws.weight / laws.ratio).sqrt();
-        let mut state = self.fill(|below, above| {
-            let height = 0.5 * (below + above);
-            let left = (level - height).max(0.0);
-            let v = rate * 2.0 / 3.0 * (level.powf(1.5) - left.powf(1.5));
-            let filled = ((level - below) / (above - below)).clamp(0.0, 1.0);
-            (phi * filled, v, v, rate * rate * left)
-        });
-        self.accumulate(&mut state);
-        state
     }
 
     /// A layer that moves over a bed of the solid fraction `phi`: linear in solid fraction and velocity, agitated in its middle.

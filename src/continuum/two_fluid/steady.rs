@@ -126,7 +126,7 @@ fn settle(
 pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut(f64) -> bool) -> Result<Steady, Stalled> {
     let (mut iterations, mut history) = (0, Vec::new());
     let mut best = f64::INFINITY;
-    for (cells, start, factor) in ways(column, shields) {
+    for (cells, start, factor) in ways(shields) {
         if stop(0.0) || iterations > MOST_IN_ALL {
             break;
         }
@@ -149,7 +149,7 @@ pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut(f64) 
 }
 
 /// Where to start from, in turn: cells of the march, its first state, and the drive over the wanted one.
-fn ways(column: &Column, shields: f64) -> Vec<(usize, Start, f64)> {
+fn ways(shields: f64) -> Vec<(usize, Start, f64)> {
     let layer = |(cells, thickness): (usize, f64), factor: f64| {
         (cells, Start::Layer { shields: shields * factor, thickness }, factor)
     };
@@ -157,10 +157,6 @@ fn ways(column: &Column, shields: f64) -> Vec<(usize, Start, f64)> {
     let rest = (TRIALS[0].0, Start::Rest, 1.0);
     let others = TRIALS[1..].iter().map(|trial| layer(*trial, 1.0));
     let mut ways = Vec::new();
-    if column.laws.slides() {
-        // On its own cells: its surface is too sharp to be handed to finer ones.
-        ways.push((column.cells(), Start::Film, 1.0));
-    }
     if shields < WEAK[0] {
         ways.extend([rest, straight]);
     } else {
