@@ -13,13 +13,11 @@
 //! Source: Vescovi, Berzi, Richard & Brodu (2014), Phys. Fluids 26, 053305, for the flow; Chassagne et al. (2023), Table 1,
 //! for the theory.
 
-use super::exact::{balance, outcome};
 use crate::closures::kinetic::Kinetic;
 use crate::numerics::banded::Banded;
 use crate::numerics::dual::{Dual, Real};
 use crate::problem::ShearCell;
-use crate::result::{Failure, Outcome, Profile, Results, Snapshot, SolveError, Watch, quantity as q};
-use crate::units::significant;
+use crate::result::SolveError;
 
 /// A step changes the logit of the solid fraction and the logarithm of the pressure by this much at most.
 const LONGEST: f64 = 1.0;
@@ -57,21 +55,25 @@ pub struct Flow {
 
 /// What lies at a node.
 #[derive(Clone, Copy, Debug)]
-struct Node<T> {
-    phi: T,
-    gap: T,
-    t: T,
+pub(super) struct Node<T> {
+    /// solid fraction
+    pub(super) phi: T,
+    /// its distance to phi_max
+    pub(super) gap: T,
+    /// granular temperature
+    pub(super) t: T,
 }
 
 /// What lies between two nodes.
-struct Between<T> {
+pub(super) struct Between<T> {
     /// flux of fluctuation energy upward
     flux: T,
     /// shear rate
-    shear: T,
+    pub(super) shear: T,
 }
 
 impl Flow {
+    /// The node of a solid fraction under a pressure.
     fn node<T: Real>(&self, logit: T, ln_p: T) -> Node<T> {
         let y = logit.value();
         let (full, empty) = (1.0 / (1.0 + (-y).exp()), 1.0 / (1.0 + y.exp()));
@@ -81,7 +83,8 @@ impl Flow {
         Node { phi, gap, t }
     }
 
-    fn between<T: Real>(&self, lower: &Node<T>, upper: &Node<T>, tau: T) -> Between<T> {
+    /// What lies between two nodes under the stress `tau`.
+    pub(super) fn between<T: Real>(&self, lower: &Node<T>, upper: &Node<T>, tau: T) -> Between<T> {
         let mean = |a: T, b: T| (a + b) * 0.5;
         let root = mean(lower.t, upper.t).sqrt();
         let (phi, gap) = (mean(lower.phi, upper.phi), mean(lower.gap, upper.gap));
@@ -94,7 +97,8 @@ impl Flow {
         self.kinetic.dissipation_per_grain(node.phi, node.gap) * node.phi * node.t * node.t.sqrt()
     }
 
-    fn states(&self) -> Vec<Node<f64>> {
+    /// All nodes.
+    pub(super) fn states(&self) -> Vec<Node<f64>> {
         self.logit.iter().map(|y| self.node(*y, self.ln_p)).collect()
     }
 
@@ -186,7 +190,7 @@ impl Flow {
     }
 
     /// Work of the shear stress, fluctuation energy that enters through the walls, and what contacts dissipate, per area.
-    fn energies(&self) -> [f64; 3] {
+    pub(super) fn energies(&self) -> [f64; 3] {
         let nodes = self.states();
         let between: Vec<_> = nodes.windows(2).map(|pair| self.between(&pair[0], &pair[1], self.tau)).collect();
         let work = between.iter().map(|b| self.tau * b.shear * self.h).sum();
@@ -204,7 +208,7 @@ impl Flow {
 }
 
 /// The flow before it is solved, from grains of one solid fraction, on `cells` intervals.
-fn guess(cell: &ShearCell, cells: usize) -> Flow {
+pub(super) fn guess(cell: &ShearCell, cells: usize) -> Flow {
     let unit = cell.temperature[0].max(cell.temperature[1]);
     let walls = cell.temperature.map(|t| t / unit);
     let h = cell.h / cell.d / cells as f64;
@@ -231,91 +235,6 @@ fn guess(cell: &ShearCell, cells: usize) -> Flow {
     let node = Node { t, ..node };
     flow.tau = difference / (h * cells as f64) / flow.between(&node, &node, 1.0).shear;
     flow
-}
-
-/// Solves the flow on `cells` intervals.
-///
-/// # Errors
-/// [`SolveError::NotConverged`].
-pub fn run(cell: &ShearCell, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
-    if watch.see(&Snapshot { stage: "shear cell", fraction: 0.0, quantity: None }).is_break() {
-        return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
-    }
-    let flow = guess(cell, cells).solve()?;
-    let [work, entering, lost] = flow.energies();
-    let scale = work.abs().max(entering.abs()).max(lost.abs()).max(f64::MIN_POSITIVE);
-    let held: f64 = flow.states().windows(2).map(|pair| 0.5 * (pair[0].phi + pair[1].phi)).sum();
-    let balances = vec![
-        balance("solids", held / cells as f64 / cell.phi - 1.0, "grains against those that are wanted"),
-        balance(
-            "fluctuation_energy",
-            (work + entering - lost) / scale,
-            "work of the shear stress and what enters through the walls, against what contacts dissipate",
-        ),
-    ];
-    let unit = cell.temperature[0].max(cell.temperature[1]);
-    let stress = cell.rho_p * unit;
-    let mut results = Results::default();
-    results.set(&q::WALL_PRESSURE, stress * flow.ln_p.exp());
-    results.set(&q::WALL_SHEAR, stress * flow.tau);
-    results.set(&q::WALL_HEAT, stress * unit.sqrt() * entering);
-    results.set(&q::EFFECTIVE_RESTITUTION, cell.kinetic.e_eff);
-    results.set(&q::FLOW_HEIGHT, cell.h);
-    results.set(&q::NEWTON_ITERATIONS, flow.history.len() as f64);
-    let profile = profile(cell, &flow)?;
-    outcome(Some(profile), flow.history, results, balances, Vec::new())
-}
-
-fn profile(cell: &ShearCell, flow: &Flow) -> Result<Profile, Failure> {
-    let nodes = flow.states();
-    let unit = cell.temperature[0].max(cell.temperature[1]);
-    let velocity = unit.sqrt();
-    let stress = cell.rho_p * unit;
-    let mut v = 0.0;
-    let mut velocities = vec![cell.velocity[0]];
-    for pair in nodes.windows(2) {
-        v += flow.between(&pair[0], &pair[1], flow.tau).shear * flow.h;
-        velocities.push(cell.velocity[0] + v * velocity);
-    }
-    let p = stress * flow.ln_p.exp();
-    let shear = |node: &Node<f64>| flow.between(node, node, flow.tau).shear.abs() * velocity / cell.d;
-    let all = |of: &dyn Fn(&Node<f64>) -> f64| nodes.iter().map(|node| Some(of(node))).collect::<Vec<_>>();
-    let mut profile = Profile::new((0..nodes.len()).map(|k| k as f64 * flow.h * cell.d).collect())?;
-    profile.push(&q::PHI, all(&|node| node.phi))?;
-    profile.push(&q::U_PARTICLE, velocities.into_iter().map(Some).collect())?;
-    profile.push(&q::TAU_PARTICLE, all(&|_| stress * flow.tau))?;
-    profile.push(&q::P_PARTICLE, all(&|_| p))?;
-    profile.push(&q::SHEAR_RATE, all(&shear))?;
-    profile.push(&q::INERTIAL_NUMBER, all(&|node| cell.d * shear(node) * (cell.rho_p / p).sqrt()))?;
-    profile.push(&q::GRANULAR_TEMPERATURE, all(&|node| node.t * unit))?;
-    profile.push(&q::RADIAL, all(&|node| cell.kinetic.radial.contact(node.phi, node.gap, cell.kinetic.a)))?;
-    Ok(profile)
-}
-
-/// The equations that are solved, with their numbers.
-#[must_use]
-pub fn equations(cell: &ShearCell) -> String {
-    let n = |x: f64| significant(x, 5);
-    let parts: Vec<String> =
-        cell.granular.parts().iter().map(|info| format!("              {}\n", info.equation)).collect();
-    format!(
-        "Grains that collide between two walls {h} m apart, d = {d} m, without fluid or gravity.\n\n\
-         pressure      p = ρ_p F₁ T, the same at every height;  the mean of φ is {phi}\n\
-         stress        τ = ρ_p d F₂ T^½ u_p', the same at every height\n\
-         heat          0 = τ u_p' - q' - (ρ_p/d) F₄(e_eff) T^(3/2),  q = -ρ_p d F₃ T^½ T'\n\
-         walls         u_p = {v0} and {v1} m/s,  T = {t0} and {t1} m²/s²\n\
-         grains        e = {e}, e_eff = {e_eff};  nothing limits the flight of a grain but the others\n{parts}",
-        h = n(cell.h),
-        d = n(cell.d),
-        phi = n(cell.phi),
-        v0 = n(cell.velocity[0]),
-        v1 = n(cell.velocity[1]),
-        t0 = n(cell.temperature[0]),
-        t1 = n(cell.temperature[1]),
-        e = n(cell.kinetic.e),
-        e_eff = n(cell.kinetic.e_eff),
-        parts = parts.concat(),
-    )
 }
 
 #[cfg(test)]
