@@ -26,6 +26,53 @@ pub struct Check {
     pub tier: Tier,
 }
 
+/// Where the method of the case ends: it makes the case a test of its own limit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Limit {
+    /// The key that is varied and its values, as `stability --over` takes them.
+    pub over: String,
+    /// The predicted limit, in the unit of `over`.
+    pub expect: f64,
+    /// Largest accepted deviation of the limit found, relative to the expected one.
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1e6))]
+    pub tolerance: f64,
+    /// What becomes of the method beyond it.
+    pub beyond: Class,
+    /// Largest error of an answer that holds, where a closed form judges it.
+    #[serde(default = "one_per_cent")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub within: f64,
+    /// What kind of agreement this is.
+    pub kind: CheckKind,
+    /// Where the expected limit comes from.
+    pub source: String,
+    /// When the row is run.
+    #[serde(default)]
+    pub tier: Tier,
+}
+
+fn one_per_cent() -> f64 {
+    0.01
+}
+
+/// What comes of a method.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Class {
+    /// Solved, and as accurate as wanted where a closed form says.
+    Holds,
+    /// Solved, and further from the closed form than the tolerance.
+    Inaccurate,
+    /// The iteration ends without a solution.
+    NotConverged,
+    /// A number leaves the range of numbers, or a grain its place.
+    Diverged,
+    /// The equations have no such flow, or the answer does not balance.
+    Unphysical,
+    /// Refused: before it is run, or by a limit that the method knows of itself.
+    Refused,
+}
+
 /// What kind of agreement a check claims.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

@@ -106,6 +106,17 @@ fn clear() -> MixtureViscosity {
     MixtureViscosity::Clear
 }
 
+/// How the fluid is stepped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FluidScheme {
+    /// Backward Euler with the drag: stable with any step.
+    #[default]
+    Implicit,
+    /// Forward Euler: stable for steps below h^2/(2 nu) and 2 (1 - phi) rho_f/beta alone.
+    Explicit,
+}
+
 /// How grains are moved, how often the fluid is solved, and what is averaged.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CoupledDiscrete {
@@ -121,10 +132,13 @@ pub struct CoupledDiscrete {
     #[serde(default = "period")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
     pub coupling_period: f64,
-    /// Implicit steps of the fluid in that time.
+    /// Steps of the fluid in that time.
     #[serde(default = "one")]
     #[schemars(extend("minimum" = 1, "maximum" = 10_000))]
     pub fluid_steps: u32,
+    /// How the fluid is stepped: explicit steps are there to show where they fail.
+    #[serde(default)]
+    pub fluid_scheme: FluidScheme,
     /// Time between two samples of the means; at least the coupling period.
     #[serde(default = "sample")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
@@ -137,6 +151,9 @@ pub struct CoupledDiscrete {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
     pub time_step: Option<f64>,
+    /// Whether a time step beyond the limits of contacts and drag is taken nevertheless.
+    #[serde(default)]
+    pub force_time_step: bool,
     /// Derived time step over the stability limit of a grain in a packing.
     #[serde(default = "safety")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
@@ -169,7 +186,7 @@ impl CoupledDiscrete {
             settle: self.settle,
             time_step: self.time_step,
             safety: self.safety,
-            force_time_step: false,
+            force_time_step: self.force_time_step,
             skin: self.skin,
             slice: self.slice,
             seed: self.seed,

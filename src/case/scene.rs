@@ -5,7 +5,7 @@ use schemars::generate::SchemaSettings;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::checks::Check;
+use super::checks::{Check, Limit};
 use super::coupled::{CoupledBed, CoupledClosures, CoupledDiscrete, CoupledFlow, CoupledModel};
 use super::grain_tables::{
     Discrete, GrainBed, GrainClosures, GrainFlow, GrainsModel, ImpactFlow, ImpactModel, ImpactSteps, TrialFlow,
@@ -41,6 +41,9 @@ macro_rules! scenes {
                 /// Numbers that the case must give.
                 #[serde(default, skip_serializing_if = "Vec::is_empty")]
                 pub check: Vec<Check>,
+                /// Where the method ends.
+                #[serde(default, skip_serializing_if = "Option::is_none")]
+                pub limit: Option<Limit>,
             }
         )*
 
@@ -72,6 +75,12 @@ macro_rules! scenes {
             #[must_use]
             pub fn checks(&self) -> &[Check] {
                 match self { $(Self::$name(scene) => &scene.check),* }
+            }
+
+            /// Where the method of the case ends.
+            #[must_use]
+            pub fn limit(&self) -> Option<&Limit> {
+                match self { $(Self::$name(scene) => scene.limit.as_ref()),* }
             }
 
             /// What the case is about.

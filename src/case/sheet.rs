@@ -136,10 +136,17 @@ pub struct SheetRegularisation {
     #[schemars(extend("x-unit" = "1/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
     pub lambda: Option<f64>,
     /// Solid volume per area under the interface, in grain diameters, in which the buoyancy of the viscous stress is left out
-    /// of the momentum of the grains; more where the equations change type deeper.
+    /// of the momentum of the grains.
     #[serde(default = "interface_cut")]
     #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 100.0))]
     pub interface_cut: f64,
+    /// Whether more is left out where the equations change type deeper; if not, the case fails there.
+    #[serde(default = "deepen")]
+    pub deepen_cut: bool,
+}
+
+fn deepen() -> bool {
+    true
 }
 
 fn interface_cut() -> f64 {
@@ -148,7 +155,7 @@ fn interface_cut() -> f64 {
 
 impl Default for SheetRegularisation {
     fn default() -> Self {
-        Self { law: SheetSmoothing::None, lambda: None, interface_cut: interface_cut() }
+        Self { law: SheetSmoothing::None, lambda: None, interface_cut: interface_cut(), deepen_cut: deepen() }
     }
 }
 

@@ -164,8 +164,11 @@ impl From<OutputError> for CliError {
 }
 
 impl From<ValidateError> for CliError {
-    fn from(ValidateError::Case(error): ValidateError) -> Self {
-        Self::Case(error)
+    fn from(error: ValidateError) -> Self {
+        match error {
+            ValidateError::Case(error) => Self::Case(error),
+            ValidateError::Limit(error) => error.into(),
+        }
     }
 }
 

@@ -11,29 +11,38 @@ use crate::study::stability::{self, Request};
 pub(super) struct Stability {
     #[command(flatten)]
     case: CaseArgs,
-    /// table.key=a,b,c or table.key=from:to:count[:log]; the first takes numbers and is bisected; at most two
-    #[arg(long, value_name = "KEY=VALUES", required = true)]
+    /// table.key=a,b,c or table.key=from:to:count[:log]; the first takes numbers and is bisected; at most two [default: the
+    /// key of the table [limit] of the case]
+    #[arg(long, value_name = "KEY=VALUES")]
     over: Vec<String>,
-    /// Largest relative error of an answer that holds, where a closed form judges it
-    #[arg(long, value_name = "SHARE", default_value_t = 0.01)]
-    tolerance: f64,
+    /// Largest relative error of an answer that holds, where a closed form judges it [default: 0.01, or that of the case]
+    #[arg(long, value_name = "SHARE")]
+    tolerance: Option<f64>,
     #[command(flatten)]
     pub(super) study: StudyArgs,
 }
 
 impl Stability {
     pub(super) fn execute(self) -> Result<(), CliError> {
-        if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
-            let message = format!("--tolerance {} is not a share above 0", self.tolerance);
+        if let Some(tolerance) = self.tolerance.filter(|tolerance| !(*tolerance > 0.0 && tolerance.is_finite())) {
+            let message = format!("--tolerance {tolerance} is not a share above 0");
             return Err(CliError::Usage { message, hint: "0.01 is one per cent".into() });
         }
-        let mut options: Vec<String> = self.over.iter().map(|over| format!("--over {}", word(over))).collect();
-        options.push(format!("--tolerance {}", self.tolerance));
+        let own = self.case.load()?.0.scene.limit().filter(|_| self.over.is_empty()).cloned();
+        if self.over.is_empty() && own.is_none() {
+            let message = "nothing is varied: no --over, and the case has no table [limit]".to_owned();
+            return Err(CliError::Usage { message, hint: "add --over table.key=from:to:count".into() });
+        }
+        let tolerance = self.tolerance.or(own.as_ref().map(|limit| limit.within)).unwrap_or(0.01);
+        let over: Vec<String> = own.iter().map(|limit| limit.over.clone()).chain(self.over).collect();
+        let mut options: Vec<String> = over.iter().map(|over| format!("--over {}", word(over))).collect();
+        options.push(format!("--tolerance {tolerance}"));
         let request = Request {
             case: self.case.case.clone(),
             overrides: self.case.overrides.clone(),
-            over: self.over,
-            tolerance: self.tolerance,
+            over,
+            tolerance,
+            predicted: own.map(|limit| limit.expect),
         };
         let (plan, judge) = stability::plan(&request)?;
         self.study.conduct(&self.case, &plan, judge, &options)

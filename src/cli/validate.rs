@@ -10,6 +10,7 @@ use super::progress::Progress;
 use super::{CliError, answer, say};
 use crate::case::checks::Tier;
 use crate::units::significant;
+use crate::validate::scenes::{self, Judged};
 use crate::validate::{Row, Verdict, markdown, validate};
 
 /// Re-run what the cases claim and write the table.
@@ -33,6 +34,7 @@ impl Validate {
     pub(super) fn execute(self) -> Result<(), CliError> {
         let tier = if self.full { Tier::Full } else { Tier::Quick };
         let rows = validate(&self.cases, tier, &mut Progress::new(self.json))?;
+        let judged = if self.full && self.cases.is_empty() { scenes::judge() } else { Vec::new() };
         let default = (self.full && self.cases.is_empty())
             .then(|| PathBuf::from("docs/validation.md"))
             .filter(|_| Path::new("docs").is_dir());
@@ -40,12 +42,14 @@ impl Validate {
             if let Some(folder) = file.parent() {
                 fs::create_dir_all(folder)?;
             }
-            fs::write(&file, markdown(&rows))?;
+            let advice = if judged.is_empty() { String::new() } else { scenes::markdown(&judged) };
+            fs::write(&file, markdown(&rows) + &advice)?;
         }
-        let red = rows.iter().filter(|r| r.verdict == Verdict::Red).count();
+        let verdicts = || rows.iter().map(|r| r.verdict).chain(judged.iter().map(|j| j.verdict));
+        let red = verdicts().filter(|v| *v == Verdict::Red).count();
         if self.json {
             answer(
-                &json!({ "status": if red == 0 { "done" } else { "failed" }, "red": red, "rows": rows.iter().map(object).collect::<Vec<_>>() }),
+                &json!({ "status": if red == 0 { "done" } else { "failed" }, "red": red, "rows": rows.iter().map(object).collect::<Vec<_>>(), "advice": judged.iter().map(advice).collect::<Vec<_>>() }),
             )?;
             return if red == 0 { Ok(()) } else { Err(CliError::Quiet(3)) };
         }
@@ -60,10 +64,35 @@ impl Validate {
                 row.check.tolerance
             );
         }
-        let green = rows.iter().filter(|r| r.verdict == Verdict::Green).count();
-        say(&(text + &format!("{green} pass, {red} fail, {} shown\n", rows.len() - green - red)))?;
+        for row in &judged {
+            let found = row.advised.found.as_ref().map_or_else(Clone::clone, |(error, _)| significant(*error, 2));
+            let tolerance = row.scene.tolerance;
+            text += &format!(
+                "{:5} advice: {:<40} {}, error {found} (± {tolerance:.0e})\n",
+                row.verdict.word(),
+                row.scene.name,
+                row.advised.name
+            );
+        }
+        let green = verdicts().filter(|v| *v == Verdict::Green).count();
+        say(&(text + &format!("{green} pass, {red} fail, {} shown\n", verdicts().count() - green - red)))?;
         if red == 0 { Ok(()) } else { Err(CliError::Red(red)) }
     }
+}
+
+fn advice(row: &Judged) -> Value {
+    let found = |answer: &scenes::Answer| match &answer.found {
+        Ok((error, time)) => json!({ "model": answer.name, "error": error, "time_s": time }),
+        Err(reason) => json!({ "model": answer.name, "reason": reason }),
+    };
+    json!({
+        "scene": row.scene.name,
+        "tolerance": row.scene.tolerance,
+        "advised": found(&row.advised),
+        "others": row.rivals.iter().map(found).collect::<Vec<_>>(),
+        "without": row.without.as_ref().map(found),
+        "verdict": row.verdict.word(),
+    })
 }
 
 fn object(row: &Row) -> Value {

@@ -201,6 +201,44 @@ impl FluidColumn {
         result
     }
 
+    /// Advances the velocity by `dt` [s] with everything taken at the start of the step. Forward Euler: stable for steps below
+    /// [`Self::explicit_limit`] alone, and there to show it.
+    ///
+    /// # Errors
+    /// [`ColumnError`] if a number is out of range, or the velocity leaves the numbers; it is then as before the step.
+    pub fn step_explicit(&mut self, medium: &Medium, forcing: &Forcing, dt: f64) -> Result<Step, ColumnError> {
+        medium.check(&self.grid)?;
+        forcing.check(self.grid.distances()[0])?;
+        self.conductance.fill(&self.setup, &self.grid, &medium.phi, forcing)?;
+        self.previous.copy_from_slice(&self.velocity);
+        let side_walls = self.assemble(medium, forcing.drive, 0.0).side_walls;
+        let gained = self.system.residual.iter().sum();
+        let balance = Balance { side_walls, inertia: gained, ..self.balance(medium, forcing.drive, 0.0) };
+        let mass = self.mass(&medium.phi);
+        for ((u, residual), mass) in self.velocity.iter_mut().zip(&self.system.residual).zip(mass) {
+            *u += dt * residual / mass;
+        }
+        if let Some(i) = self.velocity.iter().position(|u| !u.is_finite()) {
+            self.velocity.copy_from_slice(&self.previous);
+            return Err(ColumnError::NotFinite { iteration: 0, z: self.grid.centres()[i] });
+        }
+        Ok(Step { iterations: 1, residual: 0.0, balance })
+    }
+
+    /// Longest stable explicit step at the velocity of the last one [s]: 2 over the largest sum of magnitudes in a row of the
+    /// derivatives over the mass of its cell. That is h^2/(2 nu) for diffusion alone and 2 eps rho_f/beta for a drag alone.
+    #[must_use]
+    pub fn explicit_limit(&self, medium: &Medium) -> f64 {
+        let System { lower, diagonal, upper, .. } = &self.system;
+        let rows = lower.iter().zip(diagonal).zip(upper).map(|((a, b), c)| a.abs() + b.abs() + c.abs());
+        rows.zip(self.mass(&medium.phi)).map(|(row, mass)| 2.0 * mass / row).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Mass of the fluid in the cells, per area [kg/m2].
+    fn mass(&self, phi: &[f64]) -> Vec<f64> {
+        self.grid.widths().iter().zip(phi).map(|(h, phi)| h * (1.0 - phi) * self.setup.rho).collect()
+    }
+
     fn iterate(&mut self, medium: &Medium, drive: f64, rate: f64) -> Result<Step, ColumnError> {
         let newton = self.setup.newton;
         let mut iterations = 0;

@@ -64,6 +64,26 @@ pub enum GrainError {
         /// its contacts
         contacts: usize,
     },
+    /// A time step that the drag does not bear.
+    #[error(
+        "the time step {step_s:.3e} s is beyond 2 m/(df/du) = {limit_s:.3e} s, the stability limit of the drag on a grain"
+    )]
+    DragStep {
+        /// the step [s]
+        step_s: f64,
+        /// the limit [s]
+        limit_s: f64,
+    },
+    /// A step of the fluid that forward Euler does not bear.
+    #[error(
+        "the explicit step of the fluid {step_s:.3e} s is beyond its stability limit {limit_s:.3e} s at this velocity"
+    )]
+    FluidStep {
+        /// the step [s]
+        step_s: f64,
+        /// the limit [s]
+        limit_s: f64,
+    },
     /// A period in which a grain could touch another one twice.
     #[error(
         "the period of {length:.6e} m along {axis} is not longer than {least:.6e} m: grains would meet their own images"
@@ -94,9 +114,13 @@ impl From<GrainError> for SolveError {
             GrainError::Lost { .. } => {
                 ("grain-lost", "a bottom without gaps: bed.bottom = \"plane\" or more layers of fixed grains")
             }
-            GrainError::StepTooLong { .. } => {
+            GrainError::StepTooLong { .. } | GrainError::DragStep { .. } => {
                 ("step-too-long", "a shorter discrete.time_step, or discrete.force_time_step = true")
             }
+            GrainError::FluidStep { .. } => (
+                "step-too-long",
+                "discrete.fluid_scheme = \"implicit\", more discrete.fluid_steps or a shorter discrete.coupling_period",
+            ),
             GrainError::PeriodTooShort { .. } => ("period-too-short", "a longer flow.length or flow.width"),
             GrainError::Count { .. } => ("grain-count", "another number of bed.layers, flow.length or flow.width"),
         };

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use super::{Faults, GrainBed};
 use crate::case::Fault;
 use crate::case::coupled::CoupledDiscrete;
+pub use crate::case::coupled::FluidScheme;
 use crate::case::grain_tables::Bottom;
 use crate::case::scene::Coupled as Scene;
 use crate::case::tables::SlopeDefinition;
@@ -40,8 +41,10 @@ pub struct Coupled {
     pub fluctuation: Fluctuation,
     /// time between two solutions of the fluid [s]
     pub coupling_period: f64,
-    /// implicit steps of the fluid in that time
+    /// steps of the fluid in that time
     pub fluid_steps: u32,
+    /// how it is stepped
+    pub fluid_scheme: FluidScheme,
     /// time between two samples [s]
     pub sample_period: f64,
     /// standard error of the transport rate, relative to it, with which the run ends
@@ -149,6 +152,7 @@ pub(super) fn coupled(scene: &Scene, model: &str, faults: &mut Faults) -> Option
         fluctuation: closures.fluctuation,
         coupling_period,
         fluid_steps: discrete.fluid_steps,
+        fluid_scheme: discrete.fluid_scheme,
         sample_period,
         known_to: discrete.known_to,
     })

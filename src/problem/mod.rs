@@ -11,7 +11,7 @@ mod two_fluid;
 
 pub use crate::closures::regularisation::{Regularisation, Smoothing};
 pub use bed::{Drive, LaminarBed, RegularisedBed};
-pub use coupled::{Coupled, Surface};
+pub use coupled::{Coupled, FluidScheme, Surface};
 pub use grains::{GrainBed, Impact, Trial};
 pub use others::{BinghamDrive, BinghamPlane, GranularFilm, RegularisedPlane, RoughWall};
 pub use section::{CavityFlow, Contents, DuctFlow, Method, Outline, SectionMethod};

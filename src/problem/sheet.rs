@@ -60,6 +60,8 @@ pub struct SheetFlow {
     pub lambda: f64,
     /// solid volume under the interface without the buoyancy of the viscous stress [m]
     pub cut: f64,
+    /// whether it becomes deeper where the equations change type below it
+    pub deepen_cut: bool,
     /// how it is solved
     pub method: SheetMethod,
     /// step of pseudo-time [s], relative residual and number of turns of the iteration
@@ -198,6 +200,7 @@ pub(super) fn sheet_flow(scene: &Scene, model: &str, faults: &mut Faults) -> Opt
         suspension: closures.suspension,
         lambda,
         cut: regularisation.interface_cut * grains.diameter,
+        deepen_cut: regularisation.deepen_cut,
         method: scene.model.method,
         pace: (solver.time_step, solver.tolerance, solver.turns),
     })

@@ -58,6 +58,14 @@ pub enum SolveError {
         /// Shields number
         shields: f64,
     },
+    /// A solution of the discrete equations that is none of the flow.
+    #[error(
+        "only a solution with locked grains was found: where they come to rest they carry {carried:.4} of the stress, and the viscosity of packed grains the rest"
+    )]
+    Locked {
+        /// share of the stress
+        carried: f64,
+    },
     /// A suspension that takes the bed away.
     #[error(
         "the suspension takes the bed away: it would hold {suspended_m:.6} m of solid volume, the bed has {bed_m:.6} m"
@@ -91,6 +99,16 @@ pub enum SolveError {
         tangent: f64,
         /// largest friction coefficient of the material
         mu_2: f64,
+    },
+    /// Equations that are not those of a boundary value problem right under the interface.
+    #[error(
+        "the equations change type down to {depth_m:.3e} m of grains under the interface; the buoyancy of the viscous stress is left out in {cut_m:.3e} m alone"
+    )]
+    ChangeOfType {
+        /// solid volume per area under the interface down to which they do [m]
+        depth_m: f64,
+        /// that in which the term is left out [m]
+        cut_m: f64,
     },
     /// A wanted value that no drive gives.
     #[error("no drive gives {quantity} = {wanted:.6}: with a static bed it stays below {largest:.6}")]
@@ -226,10 +244,12 @@ impl SolveError {
             Self::WholeBedMoves { .. } => "whole-bed-moves",
             Self::NoStaticBed { .. } => "no-static-bed",
             Self::NothingAtRest { .. } => "nothing-at-rest",
+            Self::Locked { .. } => "locked",
             Self::BedSuspended { .. } => "bed-suspended",
             Self::BedRunsAway { .. } => "bed-runs-away",
             Self::LidPushes { .. } => "lid-pushes",
             Self::NoSteadyFilm { .. } => "no-steady-film",
+            Self::ChangeOfType { .. } => "change-of-type",
             Self::OutOfReach { .. } => "out-of-reach",
             Self::NoRoot { .. } => "no-root",
             Self::NotConverged { .. } => "not-converged",
@@ -252,11 +272,13 @@ impl SolveError {
                 format!("drive it with less than {limit_pa_m:.4} Pa/m, or make the bed deeper (bed.level)")
             }
             Self::BedRunsAway { .. } => "lower the drive, or leave more room above the bed (flow.height)".into(),
+            Self::Locked { .. } => "raise the Shields number: hardly a grain moves; or lower it, if the bed is about to move as a whole".into(),
             Self::NothingAtRest { .. } => "lower the drive or the slope, or make the bed deeper (bed.level)".into(),
             Self::BedSuspended { .. } => {
                 "lower the drive, make the bed deeper (bed.level), or take grains that settle faster".into()
             }
             Self::LidPushes { .. } => "raise the slope, or ask for a lower Shields number".into(),
+            Self::ChangeOfType { .. } => "regularisation.deepen_cut = true, or a larger regularisation.interface_cut".into(),
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::NoSteadyFilm { .. } => "lower the slope: a steady film needs mu_s < tan(slope) < mu_2".into(),
             Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),

@@ -162,6 +162,9 @@ catalogue! {
     GRAINS = "grains", "grains", "N", "1", "number of mobile grains";
     TIME_STEP = "time_step_s", "time step", "Δt", "s", "of the grains";
     TIME_STEP_RATIO = "time_step_over_limit", "time step over its stability limit", "Δt/Δt_max", "1", "limit of the grain that sets it, with its contacts at the end";
+    WELL_POSEDNESS = "well_posedness", "condition of well-posedness", "C", "1", "4n² - 4n + μ²(1 - n/2)², n = I μ'/μ: above 0 the same flow is ill-posed in two and three dimensions (Barker et al. 2015)";
+    DRAG_LIMIT = "time_step_drag_limit_s", "longest time step that the drag bears", "Δt_d", "s", "2 m over the slope of the drag, of the grain where it is least, at the end";
+    EXPLICIT_LIMIT = "fluid_step_limit_s", "longest explicit step of the fluid", "Δt_f", "s", "2 over the largest sum of magnitudes in a row of the derivatives of the momentum balance, at the end";
     COORDINATION = "coordination", "coordination number", "Z", "1", "contacts of a mobile grain with grains and walls, mean over time";
     OVERLAP = "overlap_largest", "largest overlap", "δ/d", "1", "over the sum of the radii, of all contacts at the times that are averaged";
     PHI_BULK = "phi_bulk", "solid fraction of the bed", "φ_b", "1", "mean between a quarter and three quarters of the bed";

@@ -12,6 +12,7 @@ pub mod converge;
 mod coupled;
 mod errors;
 mod ladder;
+pub mod limits;
 mod mesh;
 pub mod orders;
 mod page;

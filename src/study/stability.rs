@@ -10,26 +10,14 @@ use serde_json::json;
 
 use super::chart::time_text;
 use super::converge::{Judge, error_text};
+use super::limits::{Class, Found, limits, solved};
 use super::mesh::ClosedForm;
 use super::range::{MOST, Varied, number_and_unit, parse};
 use super::{Judgement, Plan, Point, Row, StudyError};
-use crate::case::CaseError;
 use crate::plot::{Axis, Curve, Figure, Marker, Panel, Scale};
 use crate::problem::Problem;
-use crate::result::quantity::{self as q, Quantity};
-use crate::result::{Quiet, Results, Status};
+use crate::result::Status;
 use crate::units::significant;
-
-/// What is judged: the first of these that a point and its closed form have.
-const JUDGED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
-/// A point whose neighbour holds is solved again between them if it takes no longer than this [s].
-const PATIENCE: f64 = 30.0;
-/// Relative width to which a limit is bisected.
-const WIDTH: f64 = 1e-3;
-/// Errors below this are round-off and drawn there.
-const ROUND_OFF: f64 = 1e-16;
-/// Most solutions for one limit.
-const HALVINGS: usize = 24;
 
 /// What the user asks for.
 #[derive(Clone, Debug)]
@@ -42,79 +30,8 @@ pub struct Request {
     pub over: Vec<String>,
     /// largest error of an answer that holds
     pub tolerance: f64,
-}
-
-/// What came of a point.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Class {
-    /// solved, and as accurate as wanted where a closed form says
-    Holds,
-    /// solved, and further from the closed form than the tolerance
-    Inaccurate,
-    /// the iteration ends without a solution
-    NotConverged,
-    /// a number leaves the range of numbers, or a grain its place
-    Diverged,
-    /// the equations have no such flow, or the answer does not balance
-    Unphysical,
-    /// the case is refused before it is run
-    Refused,
-}
-
-impl Class {
-    const ALL: [Self; 6] =
-        [Self::Holds, Self::Inaccurate, Self::NotConverged, Self::Diverged, Self::Unphysical, Self::Refused];
-
-    /// In words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Inaccurate => "holds, but inaccurate",
-            Self::NotConverged => "not converged",
-            Self::Diverged => "diverged",
-            Self::Unphysical => "unphysical",
-            Self::Refused => "refused",
-        }
-    }
-
-    /// The class of a failure by its code.
-    fn of_code(code: &str) -> Self {
-        match code {
-            "not-converged" | "no-root" | "unsettled" => Self::NotConverged,
-            "not-finite" | "overlap" | "grain-lost" => Self::Diverged,
-            "step-too-long" | "period-too-short" | "grain-count" => Self::Refused,
-            _ => Self::Unphysical,
-        }
-    }
-
-    fn marker(self) -> Marker {
-        match self {
-            Self::Holds => Marker::Circle,
-            Self::Inaccurate => Marker::Triangle,
-            Self::Refused => Marker::Square,
-            Self::NotConverged | Self::Diverged | Self::Unphysical => Marker::Cross,
-        }
-    }
-}
-
-/// A point with its class, the error of its answer, and why it fails.
-#[derive(Clone, Debug)]
-struct Found {
-    class: Class,
-    error: Option<f64>,
-    reason: String,
-}
-
-/// A limit along the first key.
-#[derive(Clone, Debug)]
-struct Limit {
-    series: String,
-    /// value with which the method holds, value with which it does not, and what that is then
-    holds: f64,
-    fails: f64,
-    class: Class,
-    reason: String,
+    /// the limit that the case predicts, in the unit of the first key
+    pub predicted: Option<f64>,
 }
 
 /// The plan of a map of stability, and how to judge it.
@@ -178,72 +95,6 @@ fn classify(request: &Request, row: &Row) -> Found {
     }
 }
 
-fn solved(request: &Request, form: Option<ClosedForm>, results: &Results) -> Found {
-    let error = form.and_then(|form| {
-        let of = |q: &&&Quantity| Some((results.get(q.name)?, form.results().get(q.name).filter(|x| *x != 0.0)?));
-        JUDGED.iter().find_map(|q| of(&q)).map(|(value, exact)| (value / exact - 1.0).abs().max(ROUND_OFF))
-    });
-    let class = if error.is_some_and(|e| e > request.tolerance) { Class::Inaccurate } else { Class::Holds };
-    let reason = error.map(|e| format!("error {}", error_text(e))).unwrap_or_default();
-    Found { class, error, reason }
-}
-
-/// Runs the case with one more value, without a folder.
-fn trial(request: &Request, overrides: &[String]) -> Found {
-    let failed = |class, reason: String| Found { class, error: None, reason };
-    let load = || -> Result<_, CaseError> {
-        Problem::load(&request.case, &[&request.overrides[..], overrides].concat()).map(|(_, problem)| problem)
-    };
-    match load() {
-        Err(error) => {
-            let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
-            failed(Class::Refused, reason)
-        }
-        Ok(problem) => match crate::run(&problem, &mut Quiet) {
-            Ok(outcome) => solved(request, ClosedForm::of(&problem), &outcome.results),
-            Err(failure) => failed(Class::of_code(failure.error.code()), failure.error.to_string()),
-        },
-    }
-}
-
-/// The limits between neighbours of a series, each bisected.
-fn limits(request: &Request, varied: &[Varied], rows: &[Row], found: &[Found]) -> Vec<Limit> {
-    let Some(key) = varied.first() else { return Vec::new() };
-    let place = |row: &'_ Row| -> Option<(f64, String)> {
-        row.point.values.first().and_then(|v| number_and_unit(v)).map(|(x, unit)| (x, unit.to_owned()))
-    };
-    let mut limits = Vec::new();
-    for (pair, what) in rows.windows(2).zip(found.windows(2)) {
-        let ([a, b], [x, y]) = (pair, what) else { continue };
-        let alike = a.point.series == b.point.series && (x.class == Class::Holds) != (y.class == Class::Holds);
-        let (Some((va, unit)), Some((vb, _))) = (place(a), place(b)) else { continue };
-        if !alike {
-            continue;
-        }
-        let (mut holds, mut fails, mut worst) =
-            if x.class == Class::Holds { (va, vb, y.clone()) } else { (vb, va, x.clone()) };
-        if a.cost.solve_s.max(b.cost.solve_s) < PATIENCE {
-            for _ in 0..HALVINGS {
-                let middle = if holds > 0.0 && fails > 0.0 { (holds * fails).sqrt() } else { 0.5 * (holds + fails) };
-                if (holds - fails).abs() <= WIDTH * holds.abs().max(fails.abs()) {
-                    break;
-                }
-                let mut overrides = vec![format!("{}={middle:e} {unit}", key.key).trim().to_owned()];
-                overrides.extend(a.point.overrides.iter().skip(1).cloned());
-                let one = trial(request, &overrides);
-                if one.class == Class::Holds {
-                    holds = middle;
-                } else {
-                    (fails, worst) = (middle, one);
-                }
-            }
-        }
-        let series = a.point.series.clone();
-        limits.push(Limit { series, holds, fails, class: worst.class, reason: worst.reason });
-    }
-    limits
-}
-
 fn judge(request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
     let found: Vec<Found> = rows.iter().map(|row| classify(request, row)).collect();
     let keys: Vec<&str> = varied.iter().map(|v| v.key.as_str()).collect();
@@ -254,7 +105,7 @@ fn judge(request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
     for limit in &limits {
         let label = if limit.series.is_empty() { "limit".into() } else { format!("limit, {}", limit.series) };
         let side = if limit.holds < limit.fails { "up to" } else { "from" };
-        let text = format!(
+        let mut text = format!(
             "holds {side} {} = {}{unit}; at {}{unit} {}: {}",
             last(keys.first().copied().unwrap_or_default()),
             significant(limit.holds, 4),
@@ -262,6 +113,9 @@ fn judge(request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
             limit.class.name(),
             limit.reason
         );
+        if let Some(predicted) = request.predicted {
+            text += &format!(" (predicted {}{unit})", significant(predicted, 4));
+        }
         findings.push((label, text));
     }
     let mut modes: BTreeMap<Class, (usize, &Row, &str)> = BTreeMap::new();
@@ -287,6 +141,7 @@ fn judge(request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
         json!({ "series": l.series, "holds": l.holds, "fails": l.fails, "class": l.class.name(), "reason": l.reason })
     });
     judgement.facts.insert("limits".into(), facts.collect());
+    judgement.facts.insert("predicted".into(), json!(request.predicted));
     judgement.facts.insert("classes".into(), Class::ALL.map(Class::name).to_vec().into());
     judgement.figures.push(figure(varied, rows, &found));
     judgement
@@ -295,6 +150,15 @@ fn judge(request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
 impl Request {
     fn names(&self, varied: &[Varied]) -> Vec<String> {
         varied.iter().map(|v| v.key.clone()).collect()
+    }
+}
+
+fn marker(class: Class) -> Marker {
+    match class {
+        Class::Holds => Marker::Circle,
+        Class::Inaccurate => Marker::Triangle,
+        Class::Refused => Marker::Square,
+        Class::NotConverged | Class::Diverged | Class::Unphysical => Marker::Cross,
     }
 }
 
@@ -334,7 +198,7 @@ fn figure(varied: &[Varied], rows: &[Row], found: &[Found]) -> Figure {
             points: of.iter().map(|p| Some((p.0, p.1))).collect(),
             notes: of.iter().map(|p| note(p.2, p.3)).collect(),
             colour: [3, 5, 2, 4, 1, 0][i],
-            marker: Some(class.marker()),
+            marker: Some(marker(*class)),
             ..Curve::default()
         }
     };
@@ -366,6 +230,7 @@ mod tests {
             overrides: Vec::new(),
             over: over.iter().map(|o| (*o).to_owned()).collect(),
             tolerance: 0.01,
+            predicted: None,
         }
     }
 

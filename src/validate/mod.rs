@@ -1,11 +1,17 @@
 //! Re-runs what the cases claim: each `[[check]]` row of each case, as one table.
 
+pub mod scenes;
+pub mod table;
+
 use std::fmt::Write;
 
-use crate::case::checks::{Check, CheckKind, Tier};
+use crate::case::checks::{Check, CheckKind, Limit, Tier};
 use crate::case::{CaseError, shipped};
 use crate::problem::Problem;
 use crate::result::{Failure, Outcome, Watch, quantity};
+use crate::study::StudyError;
+use crate::study::limits;
+use crate::study::stability::Request;
 use crate::units::significant;
 
 /// How a row ended.
@@ -36,7 +42,7 @@ impl Verdict {
 pub struct Row {
     /// case
     pub case: String,
-    /// result or column
+    /// result, column or "limit of" a key
     pub quantity: String,
     /// what was claimed, with tolerance, kind and source
     pub check: Check,
@@ -62,6 +68,9 @@ pub enum ValidateError {
     /// the case is wrong
     #[error(transparent)]
     Case(#[from] Box<CaseError>),
+    /// the limit of a case is wrong
+    #[error(transparent)]
+    Limit(#[from] StudyError),
 }
 
 /// Runs the checks of `cases` (all shipped ones if there are none) up to `tier`.
@@ -74,14 +83,46 @@ pub fn validate(cases: &[String], tier: Tier, watch: &mut dyn Watch) -> Result<V
     let mut rows = Vec::new();
     for name in &names {
         let (case, problem) = Problem::load(name, &[]).map_err(Box::new)?;
-        let wanted = |check: &&Check| check.tier == Tier::Quick || tier == Tier::Full;
-        if case.scene.checks().iter().filter(wanted).count() == 0 {
-            continue;
+        let due = |of: Tier| of == Tier::Quick || tier == Tier::Full;
+        let wanted = |check: &&Check| due(check.tier);
+        if case.scene.checks().iter().filter(wanted).count() > 0 {
+            let outcome = crate::run(&problem, watch);
+            rows.extend(case.scene.checks().iter().filter(wanted).map(|check| row(&case.name, check, &outcome)));
         }
-        let outcome = crate::run(&problem, watch);
-        rows.extend(case.scene.checks().iter().filter(wanted).map(|check| row(&case.name, check, &outcome)));
+        if let Some(limit) = case.scene.limit().filter(|limit| due(limit.tier)) {
+            rows.push(limit_row(name, &case.name, limit)?);
+        }
     }
     Ok(rows)
+}
+
+/// The limit of a case, found by bisection, against the one that it predicts.
+fn limit_row(path: &str, case: &str, limit: &Limit) -> Result<Row, ValidateError> {
+    let request = Request {
+        case: path.into(),
+        overrides: Vec::new(),
+        over: vec![limit.over.clone()],
+        tolerance: limit.within,
+        predicted: Some(limit.expect),
+    };
+    let found = match limits::first(&request)? {
+        None => Err(format!("no limit in {}", limit.over)),
+        Some(found) if found.class != limit.beyond => {
+            Err(format!("{} beyond it: {}", found.class.name(), found.reason))
+        }
+        Some(found) => Ok(found.holds),
+    };
+    let key = limit.over.split('=').next().unwrap_or_default();
+    let check = Check {
+        quantity: format!("limit of {key}"),
+        at: None,
+        expect: limit.expect,
+        tolerance: limit.tolerance,
+        kind: limit.kind,
+        source: format!("{}; {} beyond it", limit.source, limit.beyond.name()),
+        tier: limit.tier,
+    };
+    Ok(judged(case, &check, found))
 }
 
 fn row(case: &str, check: &Check, outcome: &Result<Outcome, Failure>) -> Row {
@@ -89,6 +130,10 @@ fn row(case: &str, check: &Check, outcome: &Result<Outcome, Failure>) -> Row {
         Err(failure) => Err(failure.to_string()),
         Ok(outcome) => find(check, outcome).ok_or_else(|| "not reported".to_owned()),
     };
+    judged(case, check, found)
+}
+
+fn judged(case: &str, check: &Check, found: Result<f64, String>) -> Row {
     let mut row = Row {
         case: case.into(),
         quantity: check.quantity.clone(),
@@ -115,8 +160,8 @@ fn find(check: &Check, outcome: &Outcome) -> Option<f64> {
 #[must_use]
 pub fn markdown(rows: &[Row]) -> String {
     let mut text = String::from(
-        "# Validation\n\nWritten by `bedload validate --full`; do not edit. Each row is a `[[check]]` of a shipped case: run the case \
-         to see it in its place.\n\n\
+        "# Validation\n\nWritten by `bedload validate --full`; do not edit. Each row is a `[[check]]` of a shipped case (run the case \
+         to see it in its place) or its `[limit]`, where its method ends (`bedload stability CASE`).\n\n\
          - verification: against an exact or independently computed solution of the same equations\n\
          - validation: against measurements or published results\n\
          - finding: a claim that is not reproduced; both numbers are shown and it is never red\n\n\

@@ -17,7 +17,8 @@ const RANKS: &[&[&str]] = &[
     &["plot"],
     &["compare"],
     &["output"],
-    &["study", "calibrate", "advise", "validate"],
+    &["study", "calibrate", "advise"],
+    &["validate"],
     &["cli"],
 ];
 

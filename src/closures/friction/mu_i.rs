@@ -10,6 +10,10 @@
 //!
 //! Source: Jop, Forterre & Pouliquen (2006), Nature 441, 727-730; as used by Revil-Baudard & Chauchat (2013),
 //! J. Geophys. Res. Oceans 118, eq. (20).
+//!
+//! In two and three dimensions the equations of a flow with this law are ill-posed where
+//! `C = 4 n^2 - 4 n + mu^2 (1 - n/2)^2 > 0` with `n = I mu'/mu`: disturbances grow the faster the shorter they are. In one
+//! dimension nothing of it is seen. Source: Barker, Schaeffer, Bohorquez & Gray (2015), J. Fluid Mech. 779, 794-818.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -63,6 +67,37 @@ impl MuI {
         }
     }
 
+    /// C of Barker et al. (2015): the equations are ill-posed in two and three dimensions where it is positive.
+    #[must_use]
+    pub fn well_posedness(&self, i: f64) -> f64 {
+        let mu = self.mu(i);
+        let n = (self.mu_2 - self.mu_s) * self.i_0 * i / ((self.i_0 + i).powi(2) * mu);
+        4.0 * n * (n - 1.0) + (mu * (1.0 - 0.5 * n)).powi(2)
+    }
+
+    /// Inertial numbers between which the equations are well-posed in two and three dimensions; `None` if nowhere.
+    #[must_use]
+    pub fn well_posed(&self) -> Option<(f64, f64)> {
+        // n, and -C with it, is largest where mu' I is: near I_0 and below it.
+        let trial = |k: i32| self.i_0 * (0.02 * f64::from(k)).exp();
+        let best = (-400..400).map(trial).min_by(|a, b| self.well_posedness(*a).total_cmp(&self.well_posedness(*b)))?;
+        if self.well_posedness(best) > 0.0 {
+            return None;
+        }
+        let edge = |mut outside: f64, mut inside: f64| {
+            for _ in 0..100 {
+                let middle = (outside * inside).sqrt();
+                if self.well_posedness(middle) > 0.0 {
+                    outside = middle;
+                } else {
+                    inside = middle;
+                }
+            }
+            inside
+        };
+        Some((edge(1e-12 * self.i_0, best), edge(1e12 * self.i_0, best)))
+    }
+
     /// The inertial number at which the regularised friction `mu(I) I/(I + creep)` is `r`, between 0 and mu_2; `creep` is
     /// the regularisation lambda times the rearrangement time. Closed form, and for `creep = 0` the exact yield: the
     /// positive root of `(mu_2 - r) I^2 - (I_0 (r - mu_s) + r creep) I - r creep I_0 = 0`.
@@ -92,6 +127,35 @@ mod tests {
         assert_eq!(LAW.mu(0.0), 0.38);
         assert_relative_eq!(LAW.mu(LAW.i_0), 0.51, max_relative = 1e-15);
         assert_relative_eq!(LAW.mu(1e12), 0.64, max_relative = 1e-12);
+    }
+
+    #[test]
+    fn published_constants_are_well_posed_in_an_interval_or_nowhere() {
+        // mu_s, mu_2, I_0 and the interval, from an independent evaluation of the condition
+        for (mu_s, mu_2, i_0, wanted) in [
+            (0.35, 0.97, 0.69, Some((0.01375, 1.740))),
+            (0.38, 0.64, 0.279, Some((0.01913, 0.8634))),
+            (0.38, 0.64, 0.30, Some((0.02057, 0.9284))),
+            (0.342, 0.557, 0.069, Some((0.003972, 0.2802))),
+            (0.51, 0.70, 0.30, None),
+            (0.30, 0.64, 0.30, Some((0.0067, 1.417))),
+            (0.52, 0.96, 0.60, Some((0.08393, 0.7035))),
+            (0.63, 1.13, 0.60, None),
+            (0.40, 0.68, 0.40, Some((0.03068, 1.078))),
+        ] {
+            let found = MuI { mu_s, mu_2, i_0 }.well_posed();
+            match (found, wanted) {
+                (Some((low, high)), Some((a, b))) => {
+                    assert_relative_eq!(low, a, max_relative = 2e-3);
+                    assert_relative_eq!(high, b, max_relative = 2e-3);
+                }
+                (found, wanted) => assert_eq!(found, wanted, "{mu_s} {mu_2} {i_0}"),
+            }
+        }
+        // By hand: at I = I_0 the friction is 0.51, n = 0.13/(2 0.51).
+        let n: f64 = 0.065 / 0.51;
+        let c = 4.0 * n * n - 4.0 * n + 0.51_f64.powi(2) * (1.0 - n / 2.0).powi(2);
+        assert_relative_eq!(LAW.well_posedness(LAW.i_0), c, max_relative = 1e-13);
     }
 
     #[test]

@@ -96,7 +96,7 @@ pub fn run(film: &GranularFilm, cells: usize, watch: &mut dyn Watch) -> Result<O
         let how = "Simpson integral of the velocity against the closed form";
         balances.push(balance("transport_rate", integral / solution.discharge() - 1.0, how));
     }
-    outcome(profile, Vec::new(), results(film, &solution), balances, validity(&solution))
+    outcome(profile, Vec::new(), results(film, &solution), balances, validity(film, &solution))
 }
 
 fn results(film: &GranularFilm, solution: &Solution) -> Results {
@@ -107,6 +107,7 @@ fn results(film: &GranularFilm, solution: &Solution) -> Results {
     results.set(&q::TRANSPORT_RATE_BULK, discharge);
     results.undefined(&q::TRANSPORT_RATE_DIMENSIONLESS, "no fluid: the density ratio is not defined");
     results.set(&q::INERTIAL_NUMBER_FILM, solution.inertial_number);
+    results.set(&q::WELL_POSEDNESS, film.friction.well_posedness(solution.inertial_number));
     results.set(&q::SURFACE_VELOCITY, solution.velocity(film.h));
     results.set(&q::MEAN_VELOCITY, discharge / film.h);
     results.set(&q::FLOW_HEIGHT, film.h);
@@ -114,8 +115,15 @@ fn results(film: &GranularFilm, solution: &Solution) -> Results {
     results
 }
 
-fn validity(solution: &Solution) -> Vec<Validity> {
-    outside(closure_name(&mu_i::INFO), &mu_i::INERTIAL_RANGE, solution.inertial_number).into_iter().collect()
+fn validity(film: &GranularFilm, solution: &Solution) -> Vec<Validity> {
+    let (name, i) = (closure_name(&mu_i::INFO), solution.inertial_number);
+    let far = outside(name.clone(), &mu_i::INERTIAL_RANGE, i);
+    let ill = i > 0.0 && film.friction.well_posedness(i) > 0.0;
+    let interval =
+        film.friction.well_posed().map(|(low, high)| format!("{} to {}", significant(low, 3), significant(high, 3)));
+    let range = format!("well-posed in two and three dimensions for {}", interval.unwrap_or_else(|| "no value".into()));
+    let posed = ill.then(|| Validity { closure: name, variable: "inertial_number".into(), value: i, range, z_m: None });
+    far.into_iter().chain(posed).collect()
 }
 
 /// The equations that are solved, with their numbers.

@@ -35,6 +35,16 @@ pub fn equations(sheet: &SheetFlow) -> String {
         SheetMethod::Newton => "Newton on the whole column",
         SheetMethod::Iteration => "pseudo-time iteration of the two layers",
     };
+    let posed = match mu.well_posed() {
+        Some((low, high)) => format!(
+            "well-posed    in two and three dimensions for I from {} to {} (Barker et al. 2015)",
+            n(low),
+            n(high)
+        ),
+        None => {
+            "well-posed    for no I in two and three dimensions (Barker et al. 2015); one dimension hides it".into()
+        }
+    };
     format!(
         "Sheet flow in two layers: suspension over a bed that shears. H = {h} m, d = {d} m, ρ_p/ρ_f = {ratio}.\n\n\
          drive         {drive}\n\
@@ -51,6 +61,7 @@ pub fn equations(sheet: &SheetFlow) -> String {
          friction      {yielding},  μ(I) = μ_s + (μ_2 - μ_s)/(I_0/I + 1),  μ_s = {mu_s}, μ_2 = {mu_2}, I_0 = {i_0}\n\
          dilatancy     φ = φ_max/(1 + b I^½),  φ_max = {phi_max}, b = {b}\n\
          inertia       I = t γ,  {time}\n\
+         {posed}\n\
          bottom        U = u_p = 0;  at h_p the stress, the velocity, φ and l are continuous, P_p = 0\n\
          method        {method}\n",
         h = n(sheet.height),
@@ -65,6 +76,7 @@ pub fn equations(sheet: &SheetFlow) -> String {
         mu_s = n(mu.mu_s),
         mu_2 = n(mu.mu_2),
         i_0 = n(mu.i_0),
+        posed = posed,
         phi_max = n(phi.phi_max),
         b = n(phi.b),
         time = sheet.rearrangement.info().equation,

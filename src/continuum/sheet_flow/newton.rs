@@ -43,6 +43,8 @@ pub enum Reason {
     RunsAway(f64),
     /// all grains move, down to the bottom
     AllMove,
+    /// packed grains that are taken for moving ones: they carry this share of the stress where they come to rest
+    Locked(f64),
 }
 
 impl Stalled {

@@ -58,6 +58,9 @@ pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
     }
     let solved = solved.map_err(|stalled| unsolved(sheet, &flow, &setting, stalled))?;
+    if !sheet.deepen_cut && solved.change_of_type * sheet.d > sheet.cut {
+        return Err(SolveError::ChangeOfType { depth_m: solved.change_of_type * sheet.d, cut_m: sheet.cut }.into());
+    }
     let layers = Layers::new(&solved.column, &solved.state);
     refuse(sheet, &solved, &layers)?;
     let results = results(sheet, &solved, &layers);
@@ -83,6 +86,7 @@ fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled)
             });
             return SolveError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
         }
+        Some(Reason::Locked(carried)) => return SolveError::Locked { carried },
         None => {}
     }
     // The stress of the interface alone needs this much weight of grains to be held.
@@ -187,6 +191,10 @@ fn sheet_results(sheet: &SheetFlow, solved: &Solved, layers: &Layers, results: &
     };
     let thickness = layers.z[0] - moving.bottom;
     let phi = moving.volume / thickness;
+    if !(phi.is_finite() && phi > 0.0) {
+        all.into_iter().for_each(|quantity| results.undefined(quantity, "the moving layer has no thickness"));
+        return;
+    }
     let cosine = (1.0 - state.sine * state.sine).sqrt();
     let hold = flow.friction.mu_s * phi;
     results.set(&q::SHEET_THICKNESS, thickness * d);

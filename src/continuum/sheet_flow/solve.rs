@@ -33,6 +33,9 @@ const EASING: u8 = 6;
 const CREDIBLE: f64 = 0.4;
 /// Relative residual at which a coarse solution is good enough to start from.
 const ROUGH: f64 = 1e-5;
+/// Smallest share of the stress that grains carry where they come to rest, in a solution that is one of the flow: there it is
+/// 0.94 and more, and in spurious ones, where the viscosity of packed grains carries the rest, below 0.01.
+const CARRIED: f64 = 0.5;
 /// A cut that is short by less than this share is long enough.
 const ROUNDING: f64 = 0.02;
 /// The cut lies this far below the change of type.
@@ -84,6 +87,10 @@ pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stall
             Ok((_, state, _)) if state.rest < 0.0 => {
                 last = Stalled { reason: Some(Reason::AllMove), ..Stalled::new(0.0, history.len()) };
             }
+            Ok((column, state, _)) if column.carried(&state) < CARRIED => {
+                let reason = last.reason.or(Some(Reason::Locked(column.carried(&state))));
+                last = Stalled { reason, ..Stalled::new(0.0, history.len()) };
+            }
             Ok((column, state, change_of_type)) if flow.lambda == 0.0 => {
                 return Ok(Solved { column, state, exact: None, history, change_of_type });
             }
@@ -92,7 +99,12 @@ pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stall
                 return Ok(Solved { column, state, exact, history, change_of_type });
             }
             Err(stalled) => {
-                if last.reason.is_none() && (stalled.residual < last.residual || stalled.reason.is_some()) {
+                let open = match last.reason {
+                    None => stalled.residual < last.residual || stalled.reason.is_some(),
+                    Some(Reason::Locked(_)) => stalled.reason.is_some(),
+                    Some(_) => false,
+                };
+                if open {
                     last = stalled;
                 }
                 if let Some(Reason::RunsAway(_)) = stalled.reason {
@@ -243,6 +255,14 @@ impl Column {
             pressure + cell.phi.value * slope < 0.0
         };
         (0..self.mesh.cells()).rev().find(negative).map_or(0.0, |c| state.m * self.mesh.nodes[c + 1])
+    }
+
+    /// Share of the stress that the grains carry in the last of the cells of the moving grains.
+    fn carried(&self, state: &State) -> f64 {
+        let last = self.mesh.cells() - 1;
+        let pressure = super::linear::local_cell(&self.flow, &self.mesh, state, last).pressure.value;
+        let grains = state.r(last) * pressure;
+        grains / (grains + state.s(last))
     }
 
     /// Solid volume over the lowest place where the grains carry just mu_s P_p; `None` if they carry more down to the bottom.

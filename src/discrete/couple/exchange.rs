@@ -29,7 +29,7 @@ use crate::discrete::checkpoint::{CheckpointError, Reader, Writer};
 use crate::discrete::engine::Engine;
 use crate::discrete::law::ContactLaw;
 use crate::numerics::sum::Sum;
-use crate::problem::Coupled;
+use crate::problem::{Coupled, FluidScheme};
 
 /// Share of the account that is paid back in a period.
 const RETURNED: f64 = 0.25;
@@ -58,6 +58,10 @@ pub struct Exchange {
     pub(super) totals: [Sum; 2],
     /// largest relative error of the momentum of the fluid in a step
     pub(super) worst: f64,
+    /// whether the fluid is stepped forward
+    explicit: bool,
+    /// slope of the drag on a mobile grain over its mass, where that is largest [1/s]
+    steepest: f64,
     /// solid volume that crosses a unit of width in a unit of time [m2/s]
     rate: f64,
     volumes: Vec<f64>,
@@ -100,6 +104,8 @@ impl Exchange {
             account: zero(),
             totals: [Sum::default(); 2],
             worst: 0.0,
+            explicit: flow.fluid_scheme == FluidScheme::Explicit,
+            steepest: 0.0,
             rate: 0.0,
             volumes: Vec::new(),
             reynolds: zero(),
@@ -130,6 +136,18 @@ impl Exchange {
         self.height
     }
 
+    /// Longest step of the grains that the drag on them bears, as they were last looked at [s]: it is taken at the start of a step.
+    #[must_use]
+    pub fn drag_limit(&self) -> f64 {
+        2.0 / self.steepest
+    }
+
+    /// Longest stable step of the fluid [s] if it is stepped forward.
+    #[must_use]
+    pub fn fluid_limit(&self) -> Option<f64> {
+        self.explicit.then(|| self.column.explicit_limit(&self.medium))
+    }
+
     /// Averages the grains over the cells: solid fraction and velocity, drag and its slope at the present velocities, and the
     /// impulse that the fluid gave since the last look, `dt` [s] being the step of the grains.
     pub fn look<C: ContactLaw>(&mut self, engine: &Engine<C>, dt: f64) {
@@ -141,7 +159,7 @@ impl Exchange {
         }
         let ([mobile_drag, fixed_drag], [mobile_slope, fixed_slope]) = (drag, slope);
         let per_volume = 1.0 / (self.area * self.height);
-        self.rate = 0.0;
+        (self.rate, self.steepest) = (0.0, 0.0);
         for i in 0..grains.len() {
             let (r, [_, _, z], velocity) = (grains.radius(i), grains.position(i), grains.velocity(i));
             let (id, fixed) = (grains.ids[i], grains.is_fixed(i));
@@ -150,6 +168,7 @@ impl Exchange {
             let dragged = felt.drag(id, z, velocity);
             if !fixed {
                 self.rate += whole * velocity[0];
+                self.steepest = self.steepest.max(dragged.slope * grains.spins[i].0[3]);
             }
             // Of a mobile grain the part inside counts for all; of one in the bottom, only the part in the flow.
             let scale = if fixed { per_volume / whole } else { per_volume / inside };
@@ -195,7 +214,8 @@ impl Exchange {
         let dt = period / f64::from(steps);
         let mut taken = vec![0.0; before.len()];
         for _ in 0..steps {
-            let balance = self.column.step(&self.medium, &self.forcing, dt)?.balance;
+            let step = if self.explicit { FluidColumn::step_explicit } else { FluidColumn::step };
+            let balance = step(&mut self.column, &self.medium, &self.forcing, dt)?.balance;
             self.worst = self.worst.max(relative(&balance));
             for (i, taken) in taken.iter_mut().enumerate() {
                 let change = self.column.velocity()[i] - before[i];

@@ -7,6 +7,7 @@
 
 mod exchange;
 mod felt;
+mod limits;
 mod outcome;
 mod record;
 mod run;

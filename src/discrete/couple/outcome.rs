@@ -68,6 +68,13 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     if limit.is_finite() {
         results.set(&q::TIME_STEP_RATIO, run.engine.settings().dt / limit);
     }
+    let drag = run.exchange.drag_limit();
+    if drag.is_finite() {
+        results.set(&q::DRAG_LIMIT, drag);
+    }
+    if let Some(limit) = run.exchange.fluid_limit().filter(|limit| limit.is_finite()) {
+        results.set(&q::EXPLICIT_LIMIT, limit);
+    }
     let mut table = None;
     if let Some(mut made) = profile(bed, &averaged)? {
         let column = |k: usize| fluid.iter().map(|cell| Some(cell[k].mean)).collect::<Vec<_>>();

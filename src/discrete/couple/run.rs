@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use super::exchange::Exchange;
+use super::limits;
 use super::outcome;
 use super::record::{BLOCKS, Record};
 use crate::case::grain_tables::Bottom;
@@ -158,11 +159,6 @@ impl<'a> Run<'a> {
         let bed = &flow.bed;
         let contact = law(&bed.contact)?;
         let limit = stability::limit(&engine).step.min(stability::of_pair(&contact, 0.5 * bed.mass()));
-        let wanted = bed.discrete.time_step.unwrap_or(bed.discrete.safety * limit);
-        let steps = (flow.coupling_period / wanted).ceil().max(1.0);
-        engine.change(flow.coupling_period / steps, gravity(flow));
-        engine.check_step()?;
-        engine.begin_ledger();
         let top = match flow.surface {
             Surface::Height(height) => height,
             Surface::Depth(depth) => {
@@ -174,6 +170,12 @@ impl<'a> Run<'a> {
         };
         let mut exchange = Exchange::new(flow, top, engine.grains().len())?;
         exchange.begin(&engine)?;
+        let limit = limit.min(exchange.drag_limit());
+        let wanted = bed.discrete.time_step.unwrap_or(bed.discrete.safety * limit);
+        let steps = (flow.coupling_period / wanted).ceil().max(1.0);
+        engine.change(flow.coupling_period / steps, gravity(flow));
+        limits::grains(flow, &engine, &exchange)?;
+        engine.begin_ledger();
         let cells = exchange.phi().len();
         let area = bed.size[0] * bed.size[1];
         let shape = [0.0, exchange.cell_height(), area * exchange.cell_height(), bed.rho_p];
@@ -201,6 +203,7 @@ impl<'a> Run<'a> {
         while self.made < self.periods {
             self.exchange.look(&self.engine, self.engine.settings().dt);
             self.rates += self.exchange.rate();
+            limits::drag(self.flow, &self.engine, &self.exchange)?;
             for _ in 0..self.steps {
                 if self.turn == 0 {
                     self.stir();
@@ -209,6 +212,7 @@ impl<'a> Run<'a> {
                 self.engine.step(&self.exchange.felt)?;
             }
             self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps)?;
+            limits::fluid(self.flow, &self.exchange)?;
             self.made += 1;
             let sample = self.made.is_multiple_of(self.sampled);
             if sample {
@@ -241,7 +245,7 @@ impl<'a> Run<'a> {
             }
         }
         self.exchange.look(&self.engine, self.engine.settings().dt);
-        self.engine.check_step()?;
+        limits::grains(self.flow, &self.engine, &self.exchange)?;
         Ok(Status::Done)
     }
 

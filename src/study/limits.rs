@@ -1,0 +1,196 @@
+//! Where a method ends: what came of a point, and the limit between two of which one holds.
+
+use super::converge::error_text;
+use super::mesh::ClosedForm;
+use super::range::{Varied, number_and_unit, parse};
+use super::stability::Request;
+use super::{Row, StudyError};
+use crate::case::CaseError;
+pub use crate::case::checks::Class;
+use crate::problem::Problem;
+use crate::result::quantity::{self as q, Quantity};
+use crate::result::{Quiet, Results};
+
+/// What is judged: the first of these that a point and its closed form have.
+const JUDGED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
+/// A point whose neighbour holds is solved again between them if it takes no longer than this [s].
+const PATIENCE: f64 = 30.0;
+/// Relative width to which a limit is bisected.
+const WIDTH: f64 = 1e-3;
+/// Errors below this are round-off and drawn there.
+const ROUND_OFF: f64 = 1e-16;
+/// Most solutions for one limit.
+const HALVINGS: usize = 24;
+
+/// A point with its class, the error of its answer, and why it fails.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    pub class: Class,
+    pub error: Option<f64>,
+    pub reason: String,
+}
+
+/// A limit along the first key.
+#[derive(Clone, Debug)]
+pub struct Limit {
+    /// values of the other key
+    pub series: String,
+    /// value with which the method holds
+    pub holds: f64,
+    /// value with which it does not
+    pub fails: f64,
+    /// what it is then
+    pub class: Class,
+    /// and why
+    pub reason: String,
+}
+
+impl Class {
+    /// All of them, in the order of the figures.
+    pub const ALL: [Self; 6] =
+        [Self::Holds, Self::Inaccurate, Self::NotConverged, Self::Diverged, Self::Unphysical, Self::Refused];
+
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Holds => "holds",
+            Self::Inaccurate => "holds, but inaccurate",
+            Self::NotConverged => "not converged",
+            Self::Diverged => "diverged",
+            Self::Unphysical => "unphysical",
+            Self::Refused => "refused",
+        }
+    }
+
+    /// The class of a failure by its code.
+    #[must_use]
+    pub fn of_code(code: &str) -> Self {
+        match code {
+            "not-converged" | "locked" | "no-root" | "unsettled" | "stuck-in-time" | "no-steady-flow" => {
+                Self::NotConverged
+            }
+            "not-finite" | "overlap" | "grain-lost" => Self::Diverged,
+            "step-too-long" | "period-too-short" | "grain-count" | "change-of-type" => Self::Refused,
+            _ => Self::Unphysical,
+        }
+    }
+}
+
+pub(super) fn solved(request: &Request, form: Option<ClosedForm>, results: &Results) -> Found {
+    let error = form.and_then(|form| {
+        let of = |q: &&&Quantity| Some((results.get(q.name)?, form.results().get(q.name).filter(|x| *x != 0.0)?));
+        JUDGED.iter().find_map(|q| of(&q)).map(|(value, exact)| (value / exact - 1.0).abs().max(ROUND_OFF))
+    });
+    if let Some(c) = results.get(q::WELL_POSEDNESS.name).filter(|c| *c > 0.0) {
+        let reason = format!("ill-posed in two and three dimensions, C = {c:.3}: this flow in one dimension hides it");
+        return Found { class: Class::Unphysical, error, reason };
+    }
+    let class = if error.is_some_and(|e| e > request.tolerance) { Class::Inaccurate } else { Class::Holds };
+    let reason = error.map(|e| format!("error {}", error_text(e))).unwrap_or_default();
+    Found { class, error, reason }
+}
+
+/// Runs the case with one more value, without a folder.
+fn trial(request: &Request, overrides: &[String]) -> Found {
+    let failed = |class, reason: String| Found { class, error: None, reason };
+    let load = || -> Result<_, CaseError> {
+        Problem::load(&request.case, &[&request.overrides[..], overrides].concat()).map(|(_, problem)| problem)
+    };
+    match load() {
+        Err(error) => {
+            let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
+            failed(Class::Refused, reason)
+        }
+        Ok(problem) => match crate::run(&problem, &mut Quiet) {
+            Ok(outcome) => solved(request, ClosedForm::of(&problem), &outcome.results),
+            Err(failure) => failed(Class::of_code(failure.error.code()), failure.error.to_string()),
+        },
+    }
+}
+
+/// The limit between two values of a key of which one holds.
+fn bisect(
+    request: &Request,
+    (key, unit): (&str, &str),
+    rest: &[String],
+    ends: [(f64, &Found); 2],
+    halvings: usize,
+) -> Limit {
+    let [(a, x), (b, y)] = ends;
+    let (mut holds, mut fails, mut worst) = if x.class == Class::Holds { (a, b, y.clone()) } else { (b, a, x.clone()) };
+    let whole = halvings > 0 && takes_whole_numbers(request, key);
+    for _ in 0..halvings {
+        let mut middle = if holds > 0.0 && fails > 0.0 { (holds * fails).sqrt() } else { 0.5 * (holds + fails) };
+        if whole {
+            middle = middle.round();
+        }
+        if (holds - fails).abs() <= WIDTH * holds.abs().max(fails.abs()) || middle == holds || middle == fails {
+            break;
+        }
+        let mut overrides = vec![format!("{key}={middle:e} {unit}").trim().to_owned()];
+        overrides.extend_from_slice(rest);
+        let one = trial(request, &overrides);
+        if one.class == Class::Holds {
+            holds = middle;
+        } else {
+            (fails, worst) = (middle, one);
+        }
+    }
+    Limit { series: String::new(), holds, fails, class: worst.class, reason: worst.reason }
+}
+
+/// Whether the key of the case is a whole number.
+fn takes_whole_numbers(request: &Request, key: &str) -> bool {
+    let Ok((case, _)) = Problem::load(&request.case, &request.overrides) else { return false };
+    let Ok(table) = case.resolved().parse::<toml::Table>() else { return false };
+    let value = key.split('.').try_fold(toml::Value::Table(table), |value, part| value.get(part).cloned());
+    value.is_some_and(|value| value.is_integer())
+}
+
+/// The first limit along the one key of a request, without a folder; `None` if nothing changes.
+///
+/// # Errors
+/// [`StudyError::BadOver`] with what is wrong in the argument.
+pub fn first(request: &Request) -> Result<Option<Limit>, StudyError> {
+    let bad = |reason: &str| StudyError::BadOver { argument: request.over.join(" --over "), reason: reason.into() };
+    let [over] = &request.over[..] else { return Err(bad("one key")) };
+    let varied = parse(over)?;
+    let mut last: Option<(f64, Found)> = None;
+    for value in &varied.values {
+        let (number, unit) = number_and_unit(value).ok_or_else(|| bad("the key takes numbers"))?;
+        let found = trial(request, &[format!("{}={value}", varied.key)]);
+        if let Some((before, known)) = &last
+            && (known.class == Class::Holds) != (found.class == Class::Holds)
+        {
+            let ends = [(*before, known), (number, &found)];
+            return Ok(Some(bisect(request, (&varied.key, unit), &[], ends, HALVINGS)));
+        }
+        last = Some((number, found));
+    }
+    Ok(None)
+}
+
+/// The limits between neighbours of a series, each bisected.
+pub(super) fn limits(request: &Request, varied: &[Varied], rows: &[Row], found: &[Found]) -> Vec<Limit> {
+    let Some(key) = varied.first() else { return Vec::new() };
+    let place = |row: &'_ Row| -> Option<(f64, String)> {
+        row.point.values.first().and_then(|v| number_and_unit(v)).map(|(x, unit)| (x, unit.to_owned()))
+    };
+    let mut limits = Vec::new();
+    for (pair, what) in rows.windows(2).zip(found.windows(2)) {
+        let ([a, b], [x, y]) = (pair, what) else { continue };
+        let alike = a.point.series == b.point.series && (x.class == Class::Holds) != (y.class == Class::Holds);
+        let (Some((va, unit)), Some((vb, _))) = (place(a), place(b)) else { continue };
+        if !alike {
+            continue;
+        }
+        let patient = a.cost.solve_s.max(b.cost.solve_s) < PATIENCE;
+        let rest = a.point.overrides.get(1..).unwrap_or_default();
+        let ends = [(va, x), (vb, y)];
+        let halvings = if patient { HALVINGS } else { 0 };
+        limits
+            .push(Limit { series: a.point.series.clone(), ..bisect(request, (&key.key, &unit), rest, ends, halvings) });
+    }
+    limits
+}

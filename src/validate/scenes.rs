@@ -1,0 +1,215 @@
+//! Advice, checked: scenes whose answer is known, the model that `advise` names, and the models that are cheaper or dearer.
+//!
+//! Advice is right if the model that it names answers within the wanted tolerance, and no other one answers as well in less time. Where
+//! it keeps a term, dropping that term must miss the tolerance.
+
+use std::fmt::Write;
+use std::time::Instant;
+
+use super::Verdict;
+use super::table::SCENES;
+use crate::advise::{self, Least};
+use crate::problem::Problem;
+use crate::result::Quiet;
+use crate::units::significant;
+
+/// What the answer of a scene is.
+#[derive(Clone, Copy, Debug)]
+pub enum Truth {
+    /// a closed form or a fine solution: case and what is changed in it
+    Exact(&'static str, &'static [&'static str]),
+    /// a measured or grain-resolved value with its error, and value and time [s] of the grain-resolved run of the scene: it takes too
+    /// long to be made again here
+    Known(f64, f64, Option<(f64, f64)>),
+}
+
+/// A model of the same scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Rival {
+    /// what it is
+    pub name: &'static str,
+    /// its case
+    pub case: &'static str,
+    /// what is changed in it
+    pub set: &'static [&'static str],
+}
+
+/// A scene whose answer is known.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene {
+    /// what it is
+    pub name: &'static str,
+    /// the case that is advised on
+    pub case: &'static str,
+    /// what is changed in it
+    pub set: &'static [&'static str],
+    /// largest relative error that is wanted
+    pub tolerance: f64,
+    /// the number that is judged
+    pub quantity: &'static str,
+    /// its value
+    pub truth: Truth,
+    /// where that comes from
+    pub source: &'static str,
+    /// the other models of the scene
+    pub rivals: &'static [Rival],
+    /// a term that the advice keeps: its name there, and the scene without it
+    pub kept: Option<(&'static str, Rival)>,
+}
+
+/// What a model makes of a scene: relative error and time to solve [s]; or why there is none.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// what it is
+    pub name: String,
+    /// relative error [1] and time [s], or the reason
+    pub found: Result<(f64, f64), String>,
+}
+
+/// A scene with what came of the advice on it.
+#[derive(Clone, Debug)]
+pub struct Judged {
+    /// the scene
+    pub scene: Scene,
+    /// the advised model
+    pub advised: Answer,
+    /// the others
+    pub rivals: Vec<Answer>,
+    /// the scene without the term that is kept
+    pub without: Option<Answer>,
+    /// whether no other model is as good and faster
+    pub front: bool,
+    /// whether the advice is right
+    pub verdict: Verdict,
+}
+
+/// Asks for advice on each scene and solves what it and its rivals say.
+#[must_use]
+pub fn judge() -> Vec<Judged> {
+    SCENES.iter().map(|scene| one(*scene)).collect()
+}
+
+fn owned(set: &[&str]) -> Vec<String> {
+    set.iter().map(|&set| set.to_owned()).collect()
+}
+
+/// Solves a case: the quantity and the shortest of some times [s].
+fn solve(case: &str, set: &[String], quantity: &str) -> Result<(f64, f64), String> {
+    let (_, problem) = Problem::load(case, set).map_err(|error| error.to_string())?;
+    let mut best = f64::INFINITY;
+    let mut value = None;
+    for _ in 0..3 {
+        let clock = Instant::now();
+        let outcome = crate::run(&problem, &mut Quiet).map_err(|failure| failure.error.to_string())?;
+        best = best.min(clock.elapsed().as_secs_f64());
+        value = outcome.results.get(quantity);
+        if best > 1.0 {
+            break;
+        }
+    }
+    Ok((value.ok_or_else(|| format!("{quantity} is not defined"))?, best))
+}
+
+fn one(scene: Scene) -> Judged {
+    let truth = match scene.truth {
+        Truth::Exact(case, set) => solve(case, &owned(set), scene.quantity).map(|(value, _)| (value, 0.0)),
+        Truth::Known(value, error, _) => Ok((value, error)),
+    };
+    let known = truth.as_ref().map_or(0.0, |(value, error)| if *value == 0.0 { *error } else { (error / value).abs() });
+    let answer = |name: &str, found: Result<(f64, f64), String>| {
+        let error = |value: f64, truth: f64| if truth == 0.0 { value.abs() } else { (value / truth - 1.0).abs() };
+        let found = found.and_then(|(value, time)| Ok((error(value, truth.clone()?.0), time)));
+        Answer { name: name.into(), found }
+    };
+    let set = owned(scene.set);
+    let advice = advise::advise(scene.case, &set, scene.tolerance);
+    let advised = match &advice {
+        Err(error) => Answer { name: "no advice".into(), found: Err(error.to_string()) },
+        Ok(advice) => advised(&scene, &advice.least, &set, &answer),
+    };
+    let rival = |rival: &Rival| answer(rival.name, solve(rival.case, &owned(rival.set), scene.quantity));
+    let rivals: Vec<Answer> = scene.rivals.iter().map(rival).collect();
+    let without = scene.kept.map(|(_, dropped)| rival(&dropped));
+    let good = |answer: &Answer| answer.found.as_ref().is_ok_and(|(error, _)| *error <= scene.tolerance + known);
+    let faster = |other: &&Answer| match (&other.found, &advised.found) {
+        (Ok((_, time)), Ok((_, own))) => good(other) && time < own && other.name != advised.name,
+        _ => false,
+    };
+    let front = good(&advised) && rivals.iter().find(faster).is_none();
+    let keeps = |what: &str| advice.as_ref().is_ok_and(|a| a.terms.iter().any(|term| term.what == what && term.keep));
+    let kept = scene.kept.is_none_or(|(what, _)| keeps(what)) && !without.as_ref().is_some_and(good);
+    let verdict = if front && kept { Verdict::Green } else { Verdict::Red };
+    Judged { scene, advised, rivals, without, front, verdict }
+}
+
+/// What the advised model makes of the scene; grains are not run: they are the truth there, with its error and time.
+fn advised(
+    scene: &Scene,
+    least: &Least,
+    set: &[String],
+    answer: &dyn Fn(&str, Result<(f64, f64), String>) -> Answer,
+) -> Answer {
+    if let (Truth::Known(_, _, Some(run)), "coupled") = (scene.truth, least.kind) {
+        return answer(least.kind, Ok(run));
+    }
+    let found = match &least.overrides {
+        Some(overrides) => solve(least.template, overrides, scene.quantity),
+        None => solve(scene.case, set, scene.quantity),
+    };
+    answer(least.kind, found)
+}
+
+/// The table as Markdown, a section of `docs/validation.md`.
+#[must_use]
+pub fn markdown(judged: &[Judged]) -> String {
+    let mut text = String::from(
+        "\n# Advice\n\n`bedload advise` on scenes whose answer is known. The model that it names has to answer within the tolerance (plus the error of \
+         what is known), and no other one as well in less time; where it keeps a term, the scene without that term has to miss the \
+         tolerance. Errors are of the number in the second column; grains take the time of the run that is the truth.\n\n\
+         | scene | number | tolerance | advised | its error | others | the term that is kept, and the error without it | verdict | truth |\n\
+         |---|---|---|---|---|---|---|---|---|\n",
+    );
+    let of = |answer: &Answer| match &answer.found {
+        Ok((error, time)) => format!("{}, {}", per_cent(*error), seconds(*time)),
+        Err(reason) => reason.clone(),
+    };
+    for row in judged {
+        let scene = &row.scene;
+        let others: Vec<String> = row.rivals.iter().map(|rival| format!("{}: {}", rival.name, of(rival))).collect();
+        let kept = match (&scene.kept, &row.without) {
+            (Some((what, _)), Some(without)) => format!("{what}: {}", of(without)),
+            _ => "-".into(),
+        };
+        let _ = writeln!(
+            text,
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            scene.name,
+            scene.quantity,
+            per_cent(scene.tolerance),
+            row.advised.name,
+            of(&row.advised),
+            if others.is_empty() { "-".into() } else { others.join("; ") },
+            kept,
+            row.verdict.word(),
+            scene.source,
+        );
+    }
+    text
+}
+
+fn per_cent(share: f64) -> String {
+    match share {
+        x if x < 1e-12 => "round-off".into(),
+        x if x < 1e-4 => format!("{x:.0e}"),
+        x => format!("{} %", significant(100.0 * x, 2)),
+    }
+}
+
+/// A time to one digit: it differs from machine to machine.
+fn seconds(time: f64) -> String {
+    match time {
+        t if t < 1e-3 => "below 1 ms".into(),
+        t if t < 1.0 => format!("{} ms", significant(1e3 * t, 1)),
+        t => format!("{} s", significant(t, 1)),
+    }
+}

@@ -1,0 +1,215 @@
+//! The scenes on which advice is checked.
+
+use super::scenes::{Rival, Scene, Truth};
+
+const RATE: &str = "transport_rate_dimensionless";
+const GRAINS: &str = "grains of this engine, 10 d by 10 d (docs/kinetic.md)";
+
+const fn rival(name: &'static str, case: &'static str, set: &'static [&'static str]) -> Rival {
+    Rival { name, case, set }
+}
+
+const KINETIC: &str = "two-fluid";
+const SHEET: &str = "sheet-flow";
+
+/// All of them.
+pub const SCENES: &[Scene] = &[
+    Scene {
+        name: "laminar bed of 0.5 H, grains of H/30",
+        case: "laminar_1d_ouriemi",
+        set: &[],
+        tolerance: 0.01,
+        quantity: RATE,
+        truth: Truth::Exact("exact_1d_ouriemi", &[]),
+        source: "closed form with slip, evaluated independently with 40 digits",
+        rivals: &[
+            rival("smoothed yield", "laminar_1d_ouriemi", &[]),
+            rival(
+                "exact yield on a mesh",
+                "laminar_1d_ouriemi",
+                &["regularisation.law=none", "regularisation.lambda_scaled="],
+            ),
+        ],
+        kept: None,
+    },
+    Scene {
+        name: "the same with grains of H/5",
+        case: "laminar_1d_ouriemi",
+        set: &["grains.diameter=6 mm"],
+        tolerance: 0.01,
+        quantity: RATE,
+        truth: Truth::Exact("exact_1d_ouriemi", &["grains.diameter=6 mm"]),
+        source: "closed form with slip",
+        rivals: &[rival("smoothed yield", "laminar_1d_ouriemi", &["grains.diameter=6 mm"])],
+        kept: Some((
+            "slip between the phases",
+            rival("one velocity", "exact_1d_ouriemi_mixed", &["grains.diameter=6 mm"]),
+        )),
+    },
+    Scene {
+        name: "laminar bed of the experiment, constant friction",
+        case: "laminar_1d_aussillous",
+        set: &[],
+        tolerance: 0.01,
+        quantity: RATE,
+        truth: Truth::Exact("exact_1d_aussillous", &[]),
+        source: "closed form, evaluated independently with 40 digits",
+        rivals: &[rival("exact yield on a mesh", "laminar_1d_aussillous", &[])],
+        kept: None,
+    },
+    Scene {
+        name: "laminar bed, friction that rises with the shear rate",
+        case: "laminar_1d_muiv",
+        set: &[],
+        tolerance: 0.02,
+        quantity: RATE,
+        truth: Truth::Exact("laminar_1d_muiv", &["grid.cells=6400"]),
+        source: "the same equations on 6400 cells",
+        rivals: &[],
+        kept: Some((
+            "rise of the friction with the shear rate",
+            rival(
+                "constant friction",
+                "laminar_1d_muiv",
+                &["closures.friction={ law = \"coulomb\", mu_s = 0.32 }", "closures.dilatancy="],
+            ),
+        )),
+    },
+    Scene {
+        name: "cylinders in a duct, run 91",
+        case: "sheet_1d_sumer91",
+        set: &[],
+        tolerance: 0.1,
+        quantity: RATE,
+        truth: Truth::Exact("sheet_1d_sumer91", &["grid.cells=4800"]),
+        source: "the same equations on 4800 cells",
+        rivals: &[rival(
+            "pseudo-time iteration",
+            "sheet_1d_sumer91",
+            &["model.method=iteration", "regularisation={ law = \"simple\", lambda = 1e-6 }", "grid.cells=75"],
+        )],
+        kept: Some((
+            "suspension",
+            rival("no suspension", "sheet_1d_sumer91", &["closures.suspension={ law = \"none\" }"]),
+        )),
+    },
+    Scene {
+        name: "sand of type B at a Shields number of 1.5",
+        case: "sheet_1d_type_b",
+        set: &[],
+        tolerance: 0.1,
+        quantity: RATE,
+        truth: Truth::Exact("sheet_1d_type_b", &["grid.cells=4800"]),
+        source: "the same equations on 4800 cells",
+        rivals: &[],
+        kept: Some((
+            "largest of three rearrangement times",
+            rival("free fall alone", "sheet_1d_type_b", &["closures.rearrangement={ law = \"free-fall\" }"]),
+        )),
+    },
+    Scene {
+        name: "sand of type B at a Shields number of 0.6",
+        case: "sheet_1d_type_b",
+        set: &["flow.shields=0.6"],
+        tolerance: 0.1,
+        quantity: RATE,
+        truth: Truth::Exact("sheet_1d_type_b", &["flow.shields=0.6", "grid.cells=4800"]),
+        source: "the same equations on 4800 cells",
+        rivals: &[],
+        kept: Some((
+            "suspension",
+            rival("no suspension", "sheet_1d_type_b", &["flow.shields=0.6", "closures.suspension={ law = \"none\" }"]),
+        )),
+    },
+    Scene {
+        name: "spheres at a Shields number of 0.2, roughly",
+        case: "coupled_3d_theta02_quick",
+        set: &[],
+        tolerance: 0.25,
+        quantity: RATE,
+        truth: Truth::Known(0.2531, 0.0023, Some((0.2531, 1200.0))),
+        source: GRAINS,
+        rivals: &[rival(KINETIC, "kinetic_1d_theta02", &[])],
+        kept: None,
+    },
+    Scene {
+        name: "spheres at a Shields number of 0.2",
+        case: "coupled_3d_theta02_quick",
+        set: &[],
+        tolerance: 0.05,
+        quantity: RATE,
+        truth: Truth::Known(0.2531, 0.0023, Some((0.2531, 1200.0))),
+        source: GRAINS,
+        rivals: &[rival(KINETIC, "kinetic_1d_theta02", &[]), rival(SHEET, "sheet_1d_theta06", &["flow.height=111 mm"])],
+        kept: None,
+    },
+    Scene {
+        name: "spheres at a Shields number of 0.4, to 15 %",
+        case: "coupled_3d_theta04_quick",
+        set: &[],
+        tolerance: 0.15,
+        quantity: RATE,
+        truth: Truth::Known(1.028, 0.014, Some((1.028, 300.0))),
+        source: GRAINS,
+        rivals: &[
+            rival("two-fluid, classical closures", "kinetic_1d_theta04", &["closures.granular.law=garzo-dufty"]),
+            rival(SHEET, "sheet_1d_theta06", &["flow.height=147 mm"]),
+        ],
+        kept: None,
+    },
+    Scene {
+        name: "spheres at a Shields number of 0.6, roughly",
+        case: "kinetic_1d_theta06",
+        set: &[],
+        tolerance: 0.25,
+        quantity: RATE,
+        truth: Truth::Known(2.38, 0.03, Some((2.38, 300.0))),
+        source: GRAINS,
+        rivals: &[rival(KINETIC, "kinetic_1d_theta06", &[])],
+        kept: None,
+    },
+    Scene {
+        name: "spheres at a Shields number of 0.6",
+        case: "sheet_1d_theta06",
+        set: &[],
+        tolerance: 0.05,
+        quantity: RATE,
+        truth: Truth::Known(2.38, 0.03, Some((2.38, 300.0))),
+        source: GRAINS,
+        rivals: &[rival(KINETIC, "kinetic_1d_theta06", &[]), rival(SHEET, "sheet_1d_theta06", &[])],
+        kept: None,
+    },
+    Scene {
+        name: "spheres at a Shields number of 0.8, to 15 %",
+        case: "coupled_3d_theta08_quick",
+        set: &[],
+        tolerance: 0.15,
+        quantity: RATE,
+        truth: Truth::Known(4.320, 0.024, Some((4.320, 300.0))),
+        source: GRAINS,
+        rivals: &[rival(SHEET, "sheet_1d_theta06", &["flow.height=219 mm"])],
+        kept: None,
+    },
+    Scene {
+        name: "spheres at a Shields number of 1, roughly",
+        case: "coupled_3d_theta10_quick",
+        set: &[],
+        tolerance: 0.25,
+        quantity: RATE,
+        truth: Truth::Known(6.822, 0.023, Some((6.822, 300.0))),
+        source: GRAINS,
+        rivals: &[rival(KINETIC, "kinetic_1d_theta10", &[])],
+        kept: None,
+    },
+    Scene {
+        name: "narrow flume, beads",
+        case: "coupled_2d_exp20",
+        set: &[],
+        tolerance: 0.3,
+        quantity: "transport_rate_beads_1_s",
+        truth: Truth::Known(19.74, 0.0, Some((24.79, 840.0))),
+        source: "measured: experiment of Frey (2014), in Maurin et al. (2015), Table III; grains: docs/coupled.md",
+        rivals: &[],
+        kept: None,
+    },
+];
