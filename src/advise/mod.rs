@@ -122,7 +122,9 @@ impl Advice {
     /// [`AdviseError::NoCase`] if that model refuses the scene.
     pub fn case(&self) -> Result<Option<String>, AdviseError> {
         let Some(overrides) = &self.least.overrides else { return Ok(None) };
-        let (case, _) = Problem::load(self.least.template, overrides).map_err(|error| {
+        let title = format!("case.title=The least model of a scene: {}", self.least.kind);
+        let overrides = [&overrides[..], &[title]].concat();
+        let (case, _) = Problem::load(self.least.template, &overrides).map_err(|error| {
             let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
             AdviseError::NoCase { kind: self.least.kind, reason }
         })?;

@@ -146,6 +146,11 @@ pub(super) fn of_grains(flow: &Coupled) -> Turbulent {
 }
 
 impl Turbulent {
+    /// Whether the Shields number is that or more: thresholds are not known to the per cent.
+    fn at_least(&self, threshold: f64) -> bool {
+        self.theta >= 0.99 * threshold
+    }
+
     fn excess(&self) -> f64 {
         self.rho_p / self.rho_f - 1.0
     }
@@ -242,7 +247,7 @@ impl Turbulent {
         }
         let walls = self.grains.as_ref().is_some_and(|grains| grains.walls);
         let suspended = self.fall() < self.u_star();
-        if !walls && (suspended || self.theta >= COLLISIONS && tolerance >= SHEET_FLOW) {
+        if !walls && (suspended || self.at_least(COLLISIONS) && tolerance >= SHEET_FLOW) {
             let because = if suspended {
                 format!("θ = {theta} and grains in suspension, which no other model has")
             } else {
@@ -254,7 +259,7 @@ impl Turbulent {
             let values = [self.matter(), slope, fall, self.heights()].concat();
             return least("sheet-flow", "sheet_1d_theta06", because, values);
         }
-        if !walls && self.theta >= TWO_FLUIDS.0 && tolerance >= TWO_FLUIDS.1 {
+        if !walls && self.at_least(TWO_FLUIDS.0) && tolerance >= TWO_FLUIDS.1 {
             let off = share(TWO_FLUIDS.1);
             let because = format!("θ = {theta}, and {} is enough: it is within {off} of the grains", share(tolerance));
             let flow = vec![
@@ -267,7 +272,7 @@ impl Turbulent {
         }
         let because = if walls {
             "no other model has the side walls".into()
-        } else if self.theta < COLLISIONS {
+        } else if !self.at_least(COLLISIONS) {
             format!("θ = {theta} < {COLLISIONS}: single grains move, no continuum holds")
         } else {
             format!("θ = {theta}, and no continuum is within {} of the grains", share(tolerance))

@@ -154,6 +154,15 @@ pub struct CoupledDiscrete {
     /// Whether a time step beyond the limits of contacts and drag is taken nevertheless.
     #[serde(default)]
     pub force_time_step: bool,
+    /// The deep bed is held where a layer of one diameter goes less than this share of a diameter in hold_period, the mean of its
+    /// grains, and woken when the layer above moves more. Without it all grains are moved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub hold_creep: Option<f64>,
+    /// Time between two looks at what may be held.
+    #[serde(default = "hold_period")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub hold_period: f64,
     /// Derived time step over the stability limit of a grain in a packing.
     #[serde(default = "safety")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
@@ -207,6 +216,10 @@ fn sample() -> f64 {
 fn settle() -> f64 {
     2.0
 }
+fn hold_period() -> f64 {
+    0.2
+}
+
 fn safety() -> f64 {
     0.7
 }

@@ -316,6 +316,33 @@ impl<C: ContactLaw> Engine<C> {
         self.settings.gravity = gravity;
     }
 
+    /// Holds the grains whose centres are below `level` [m], and lets the others go, but for the first `fixed` of the scene. What held
+    /// grains had of kinetic energy and momentum goes to the ground; springs between two of them are forgotten.
+    pub fn hold_below(&mut self, level: f64, fixed: usize) {
+        let mut changed = false;
+        for i in (0..self.grains.len()).filter(|&i| self.grains.ids[i] as usize >= fixed) {
+            let (below, held) = (self.grains.position(i)[2] < level, self.grains.is_fixed(i));
+            if below == held {
+                continue;
+            }
+            changed = true;
+            let mass = self.grains.mass(i);
+            if below {
+                self.ledger.contacts.add(-self.grains.kinetic_energy_of(i));
+                for (sum, v) in self.ledger.bounds.iter_mut().zip(self.grains.velocity(i)) {
+                    sum.add(-mass * v);
+                }
+                self.grains.velocities[i] = Row([0.0, 0.0, 0.0, mass]);
+                self.grains.spins[i] = Row::default();
+            } else {
+                self.grains.spins[i].0[3] = 1.0 / mass;
+            }
+        }
+        if changed {
+            self.rebuild();
+        }
+    }
+
     /// The account of energies and momentum begins again now.
     pub fn begin_ledger(&mut self) {
         self.ledger.begin(self.grains.kinetic_energy(), self.grains.momentum());

@@ -119,7 +119,7 @@ fn two_fluid() -> Vec<Rung> {
     [law("frictional-collisional"), law("garzo-dufty")].concat()
 }
 
-/// Shorter runs, smaller cells, softer grains, older fluids: from the case itself, one at a time.
+/// Shorter runs, smaller cells, softer and harder grains, older fluids, a deep bed that is held: from the case itself, one at a time.
 fn grains(duration: f64, [length, width]: [f64; 2], narrow: bool) -> Vec<Rung> {
     let lasting = |share: f64| format!("discrete.duration={}", share * duration);
     let mut rungs: Vec<Rung> = [0.125, 0.25, 0.5, 1.0]
@@ -137,10 +137,14 @@ fn grains(duration: f64, [length, width]: [f64; 2], narrow: bool) -> Vec<Rung> {
     }
     for stiffness in ["2.5e3", "1e4"] {
         let set = ["k_n", "k_s"].map(|k| format!("closures.contact.{k}={stiffness}"));
-        rungs.push(("softer grains", format!("k_n = k_s = {stiffness} N/m"), set.to_vec()));
+        rungs.push(("other stiffness", format!("k_n = k_s = {stiffness} N/m"), set.to_vec()));
     }
     for period in ["0.03 s", "0.1 s"] {
         rungs.push(("coupling period", period.into(), vec![format!("discrete.coupling_period={period}")]));
+    }
+    for creep in ["0.003", "0.01"] {
+        let words = format!("layers held below {creep} d in 0.2 s");
+        rungs.push(("deep bed held", words, vec![format!("discrete.hold_creep={creep}")]));
     }
     rungs
 }
@@ -176,7 +180,7 @@ mod tests {
         assert_eq!(counts("sheet_1d_sumer91"), [6, 6, 6]);
         assert_eq!(counts("section_2d_square_bed"), [5, 3, 12, 12]);
         // A quarter of that cell is less than a case may have.
-        assert_eq!(counts("coupled_3d_chassagne_quick").iter().sum::<usize>(), 9);
+        assert_eq!(counts("coupled_3d_chassagne_quick").iter().sum::<usize>(), 11);
         assert_eq!(counts("section_3d_square_bed"), [4]);
         assert_eq!(counts("kinetic_1d_theta06"), [4, 4]);
         assert_eq!(counts("exact_1d_ouriemi"), [1]);

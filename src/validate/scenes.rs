@@ -213,3 +213,23 @@ fn seconds(time: f64) -> String {
         t => format!("{} s", significant(t, 1)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn advice_is_right_on_every_scene() {
+        let judged = judge();
+        for row in &judged {
+            assert_eq!(row.verdict, Verdict::Green, "{row:#?}");
+        }
+        let exact = |row: &&Judged| {
+            let measured = row.scene.source.starts_with("measured");
+            measured || row.scene.source.starts_with("closed form")
+        };
+        assert!(judged.len() >= 12);
+        assert!(judged.iter().filter(exact).count() >= 4);
+        assert!(judged.iter().filter(|row| row.scene.kept.is_some()).count() >= 3);
+    }
+}

@@ -14,6 +14,7 @@ mod folder;
 mod grains;
 mod interruption;
 mod kinetic;
+mod limits;
 mod mutate;
 mod never_panics;
 mod paths;

@@ -7,6 +7,7 @@
 
 mod exchange;
 mod felt;
+mod hold;
 mod limits;
 mod outcome;
 mod record;

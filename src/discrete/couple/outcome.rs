@@ -68,6 +68,9 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     if limit.is_finite() {
         results.set(&q::TIME_STEP_RATIO, run.engine.settings().dt / limit);
     }
+    if let Some(hold) = &run.hold {
+        results.set(&q::HELD, hold.level());
+    }
     let drag = run.exchange.drag_limit();
     if drag.is_finite() {
         results.set(&q::DRAG_LIMIT, drag);

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use super::exchange::Exchange;
+use super::hold::Hold;
 use super::limits;
 use super::outcome;
 use super::record::{BLOCKS, Record};
@@ -36,6 +37,8 @@ pub(super) struct Run<'a> {
     pub exchange: Exchange,
     pub averages: Averages,
     pub record: Record,
+    /// what is held of the deep bed
+    pub hold: Option<Hold>,
     /// steps of the grains in a period; periods in a sample and in the whole run, and those made
     pub steps: u64,
     pub sampled: u64,
@@ -176,6 +179,7 @@ impl<'a> Run<'a> {
         engine.change(flow.coupling_period / steps, gravity(flow));
         limits::grains(flow, &engine, &exchange)?;
         engine.begin_ledger();
+        let hold = Hold::new(flow, &engine);
         let cells = exchange.phi().len();
         let area = bed.size[0] * bed.size[1];
         let shape = [0.0, exchange.cell_height(), area * exchange.cell_height(), bed.rho_p];
@@ -190,6 +194,7 @@ impl<'a> Run<'a> {
             sampled,
             periods: (bed.discrete.duration / flow.coupling_period).round().max(1.0) as u64,
             made: 0,
+            hold,
             turn: 0,
             draws: 0,
             rates: 0.0,
@@ -214,6 +219,9 @@ impl<'a> Run<'a> {
             self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps)?;
             limits::fluid(self.flow, &self.exchange)?;
             self.made += 1;
+            if let Some(hold) = &mut self.hold {
+                hold.look(self.made, &mut self.engine);
+            }
             let sample = self.made.is_multiple_of(self.sampled);
             if sample {
                 self.sample();
@@ -315,6 +323,7 @@ impl<'a> Run<'a> {
         self.exchange.save(&mut to);
         self.averages.save(&mut to);
         self.record.write(&mut to);
+        self.hold.iter().for_each(|hold| hold.save(&mut to));
         to.seal(&name(self.flow))
     }
 
@@ -335,7 +344,8 @@ impl<'a> Run<'a> {
         let mut averages = Averages::empty(cells, BLOCKS, [0.0; 4]);
         averages.fill(from)?;
         let record = Record::read(from, cells)?;
-        Ok(Self { flow, engine, exchange, averages, record, steps, sampled, periods, made, turn, draws, rates })
+        let hold = Hold::restore(flow, &engine, from)?;
+        Ok(Self { flow, engine, exchange, averages, record, hold, steps, sampled, periods, made, turn, draws, rates })
     }
 }
 
