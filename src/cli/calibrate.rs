@@ -13,9 +13,9 @@ pub(super) struct Calibrate {
     case: CaseArgs,
     /// A measured profile as CSV: columns by their names in profile.csv, <name>_err is one sigma
     #[arg(long, value_name = "FILE.csv")]
-    data: String,
-    /// A positive number of the case, table.key, from the value that it has there; as often as needed
-    #[arg(long, value_name = "KEY", required = true)]
+    to: String,
+    /// A positive number of the case, from the value that it has there; as often as needed. mu_2 is enough if there is one only
+    #[arg(long, value_name = "KEY[=LOWER:UPPER]", required = true)]
     fit: Vec<String>,
     /// A column of the data that is fitted [default: all that the model has]
     #[arg(long, value_name = "NAME")]
@@ -32,13 +32,13 @@ impl Calibrate {
         let request = Request {
             case: self.case.case.clone(),
             overrides: self.case.overrides.clone(),
-            data: self.data,
+            data: self.to,
             fit: self.fit,
             columns: self.column,
             sigma: self.sigma,
         };
         let (plan, next) = calibrate::plan(&request)?;
-        let mut options = vec![format!("--data {}", word(&request.data))];
+        let mut options = vec![format!("--to {}", word(&request.data))];
         for (option, values) in [("fit", &request.fit), ("column", &request.columns), ("sigma", &request.sigma)] {
             options.extend(values.iter().map(|value| format!("--{option} {}", word(value))));
         }

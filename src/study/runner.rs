@@ -115,6 +115,7 @@ pub fn conduct(plan: &Plan, settings: &Settings<'_>, next: Next) -> Result<Condu
     let judgement = judge(&rows);
     let status = match () {
         () if rows.iter().any(|row| row.status == Status::Stopped) => Status::Stopped,
+        () if judgement.failure.is_some() && settings.observer.stop() => Status::Stopped,
         () if judgement.failure.is_some() || rows.iter().all(|row| row.status == Status::Failed) => Status::Failed,
         () => Status::Done,
     };

@@ -5,16 +5,15 @@ use serde_json::{Value, json};
 use super::{ALIKE, Parameters, Target, report};
 use crate::compare::{Subject, percent};
 use crate::numerics::least_squares::{Ended, Fit, Statistics};
-use crate::plot::{Axis, Curve, Dash, Figure, Marker, Panel, Trace, shared_figures};
-use crate::result::quantity;
-use crate::result::{ErrorReport, Profile};
+use crate::result::ErrorReport;
 use crate::study::{Judgement, Numbers, Row};
-use crate::units::{readable_unit, significant};
+use crate::units::significant;
 
-/// χ² per degree of freedom beyond which, or below whose inverse, data and errors do not go together.
-const ASTRAY: f64 = 2.0;
-/// Panels of one figure.
-const PANELS: usize = 4;
+/// Distance of χ² from its mean, and of the correlation of neighbouring residuals from none, that is no chance any more
+/// [standard deviations].
+const ASTRAY: f64 = 3.0;
+/// Fewest residuals of a column whose neighbours are compared.
+const FEW: usize = 8;
 
 /// Everything that is known when a fit has ended.
 pub(super) struct Found {
@@ -31,9 +30,19 @@ struct Fitted<'a> {
     key: &'a str,
     name: &'a str,
     start: f64,
+    bounds: (f64, f64),
     value: f64,
+    /// the bound that holds it
+    held: Option<&'static str>,
     error: Option<f64>,
     interval: Option<(f64, f64)>,
+}
+
+impl Fitted<'_> {
+    /// The lower bound, 0, or the upper one, 1, if it has one.
+    fn bound(&self, side: usize) -> Option<f64> {
+        Some([self.bounds.0, self.bounds.1][side]).filter(|bound| *bound > 0.0 && bound.is_finite())
+    }
 }
 
 impl Found {
@@ -62,16 +71,19 @@ impl Found {
     }
 
     fn fitted(&self) -> Vec<Fitted<'_>> {
-        let Parameters { keys, names, start, .. } = &self.parameters;
+        let Parameters { keys, names, start, bounds, .. } = &self.parameters;
         let of = |i: usize| {
             let value = self.fit.x[i].exp();
+            let side = if value < (bounds[i].0 * bounds[i].1).sqrt() { "lower" } else { "upper" };
             let ln = self.statistics.as_ref().map(|s| s.errors[i]).filter(|e| e.is_finite());
             let quantile = self.statistics.as_ref().map_or(f64::NAN, |s| quantile(self.target.known, s.freedom));
             Fitted {
                 key: &keys[i],
                 name: &names[i],
                 start: start[i],
+                bounds: bounds[i],
                 value,
+                held: self.fit.held[i].then_some(side),
                 error: ln.map(|ln| value * ln).filter(|e| e.is_finite()),
                 interval: ln
                     .map(|ln| (value * (-quantile * ln).exp(), value * (quantile * ln).exp()))
@@ -94,9 +106,18 @@ impl Found {
                     significant(low, 4),
                     significant(high, 4)
                 ),
-                _ => {
-                    format!("{} from {}; its error is not known", significant(one.value, 4), significant(one.start, 4))
-                }
+                _ => match one.held {
+                    Some(side) => format!(
+                        "{} from {}: its {side} bound; the data want it beyond, so it has no error, and those of others take it as known",
+                        significant(one.value, 4),
+                        significant(one.start, 4)
+                    ),
+                    None => format!(
+                        "{} from {}; its error is not known",
+                        significant(one.value, 4),
+                        significant(one.start, 4)
+                    ),
+                },
             };
             say(one.name, text);
         }
@@ -112,31 +133,63 @@ impl Found {
             );
             say("not told apart", text);
         }
-        for one in fitted.iter().filter(|one| one.error.is_none_or(|e| e > one.value)) {
-            say(
-                "not determined",
-                format!("{}: its standard error is more than its value; leave it as it is", one.name),
-            );
+        for one in fitted.iter().filter(|one| one.held.is_none() && one.error.is_none_or(|e| e > one.value)) {
+            let text = format!("{}: its standard error is more than its value; leave it as it is", one.name);
+            say("not determined", text);
         }
-        if fitted.len() > 1 {
+        if fitted.iter().filter(|one| one.held.is_none()).count() > 1 {
             let (direction, error) = &statistics.weakest;
-            let powers: Vec<String> =
-                fitted.iter().zip(direction).map(|(one, power)| format!("{}^{power:.2}", one.name)).collect();
+            let free = fitted.iter().zip(direction).filter(|(one, _)| one.held.is_none());
+            let powers: Vec<String> = free.map(|(one, power)| format!("{}^{power:.2}", one.name)).collect();
             say("known least", format!("{} within ± {}", powers.join(" "), share(*error)));
         }
         let mut text = self.quality(statistics);
         text += &format!("; {} iterations, {} runs of the model", self.fit.iterations, self.fit.evaluations);
+        if self.fit.refusals > 0 {
+            text += &format!(", {} without an answer", self.fit.refusals);
+        }
         say("fit", text);
-        let per = statistics.chi2 / statistics.freedom.max(1) as f64;
-        if self.target.known && statistics.freedom > 0 && !(1.0 / ASTRAY..=ASTRAY).contains(&per) {
-            let text = if per > 1.0 {
-                "the data lie further from the model than their errors allow: the model or the errors are wrong, and with them the errors above"
-            } else {
-                "the data lie closer to the model than their errors allow: those are too large or not independent"
-            };
-            say("bear in mind", text.to_owned());
+        for text in self.misfits(statistics) {
+            say("bear in mind", text);
         }
         findings
+    }
+
+    /// Where data, model and errors do not go together.
+    fn misfits(&self, statistics: &Statistics) -> Vec<String> {
+        let mut misfits = Vec::new();
+        let freedom = statistics.freedom as f64;
+        let off = (statistics.chi2 - freedom) / (2.0 * freedom).sqrt();
+        if self.target.known && off > ASTRAY {
+            misfits.push("the data lie further from the model than their errors allow: the model or the errors are wrong, and with them the errors above".into());
+        } else if self.target.known && off < -ASTRAY {
+            misfits.push(
+                "the data lie closer to the model than their errors allow: those are too large or not independent"
+                    .into(),
+            );
+        }
+        for (column, alike) in
+            self.alike().filter(|(column, alike)| alike * (column.levels.len() as f64).sqrt() > ASTRAY)
+        {
+            misfits.push(format!(
+                "the residuals of {} are alike from level to level (correlation {alike:.2}): the model has not the shape of the data, and the errors above are too small",
+                column.quantity.title
+            ));
+        }
+        misfits
+    }
+
+    /// Each column with the correlation of its neighbouring residuals.
+    fn alike(&self) -> impl Iterator<Item = (&super::Column, f64)> {
+        let mut rest = &self.fit.residuals[..];
+        let split = self.target.columns.iter().map(move |column| {
+            let (own, others) = rest.split_at(column.levels.len().min(rest.len()));
+            rest = others;
+            let sum = own.iter().map(|r| r * r).sum::<f64>();
+            let products = own.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>();
+            (column, if sum > 0.0 { products / sum } else { 0.0 })
+        });
+        split.filter(|(column, _)| column.levels.len() >= FEW)
     }
 
     /// How well the model fits, before and after.
@@ -145,8 +198,9 @@ impl Found {
         if self.target.known {
             let chi2 = significant(statistics.chi2, 4);
             format!(
-                "χ² {chi2} for {} degrees of freedom, {} before",
+                "χ² {chi2} for {} degrees of freedom, {} for one, {} before",
                 statistics.freedom,
+                significant(statistics.chi2 / statistics.freedom.max(1) as f64, 3),
                 significant(before * before, 4)
             )
         } else {
@@ -164,6 +218,7 @@ impl Found {
         let one = |(i, p): (usize, &Fitted<'_>)| {
             json!({
                 "key": p.key, "start": p.start, "value": p.value, "stderr": p.error,
+                "lower": p.bound(0), "upper": p.bound(1), "held_by": p.held,
                 "low": p.interval.map(|x| x.0), "high": p.interval.map(|x| x.1),
                 "correlations": self.statistics.as_ref().map(|s| s.correlations[i].clone()),
             })
@@ -184,9 +239,13 @@ impl Found {
             "chi2_before": before * before,
             "residual_norm": chi,
             "residual_norm_before": before,
-            "degrees_of_freedom": self.target.count().saturating_sub(keys.len()),
+            "degrees_of_freedom": statistics.map(|s| s.freedom),
             "iterations": self.fit.iterations,
             "model_runs": self.fit.evaluations,
+            "model_runs_failed": self.fit.refusals,
+            "chi2_reduced": statistics.filter(|s| s.freedom > 0).map(|s| s.chi2 / s.freedom as f64),
+            "bear_in_mind": statistics.map(|s| self.misfits(s)).unwrap_or_default(),
+            "known_least": statistics.map(|s| json!({ "direction": s.weakest.0, "stderr_ln": s.weakest.1 })),
             "offset": Some(self.fit.offset).filter(|x| x.is_finite()),
             "singular_values": statistics.map(|s| s.singular.clone()),
             "condition": statistics.and_then(|s| Some(s.singular.first()? / s.singular.last()?)).filter(|x| x.is_finite()),
@@ -197,10 +256,11 @@ impl Found {
 
     /// `parameters.csv`: one row per parameter, with its correlations to all.
     fn table(&self, fitted: &[Fitted<'_>], weights: &str) -> Numbers {
-        let mut head: Vec<String> = ["key", "start", "fitted", "stderr", "low_95", "high_95"].map(str::to_owned).into();
+        let mut head: Vec<String> =
+            ["key", "start", "lower", "upper", "fitted", "stderr", "low_95", "high_95"].map(str::to_owned).into();
         head.extend(fitted.iter().map(|one| format!("correlation {}", one.name)));
         let row = |(i, one): (usize, &Fitted<'_>)| {
-            let mut values = vec![Some(one.start), Some(one.value), one.error];
+            let mut values = vec![Some(one.start), one.bound(0), one.bound(1), Some(one.value), one.error];
             values.extend([one.interval.map(|x| x.0), one.interval.map(|x| x.1)]);
             let of = |j: usize| self.statistics.as_ref().map(|s| s.correlations[i][j]).filter(|x| x.is_finite());
             values.extend((0..fitted.len()).map(of));
@@ -236,70 +296,6 @@ impl Found {
             ),
         };
         ErrorReport { hint: Some(hint), ..report(code, message) }
-    }
-
-    /// Data and model before and after, and the residuals of both.
-    fn figures(&self, rows: &[Row]) -> Vec<Figure> {
-        let profiles: Vec<(&str, Profile)> = rows
-            .iter()
-            .filter_map(|row| Some((row.point.series.as_str(), self.reduced(row.profile.as_ref()?)?)))
-            .collect();
-        let Some(data) = self.reduced(&self.data.profile) else { return Vec::new() };
-        let bed = rows.last().and_then(|row| row.result(quantity::BED_LEVEL.name));
-        let errors = self.data.errors.clone().or_else(|| self.data.profile.standard_errors());
-        let trace =
-            |name, profile, measured: bool, errors| Trace { name, profile, errors, measured, bed, phi_interface: None };
-        let mut traces = vec![trace(self.data.name.as_str(), &data, true, errors.as_ref())];
-        traces.extend(profiles.iter().map(|(name, profile)| trace(name, profile, false, None)));
-        let mut figures = shared_figures(&traces, None, None);
-        let pages = self.target.columns.chunks(PANELS).enumerate();
-        figures.extend(pages.map(|(i, columns)| self.residual_figure(i, columns, &profiles)));
-        figures
-    }
-
-    /// The columns that are fitted, and nothing else.
-    fn reduced(&self, profile: &Profile) -> Option<Profile> {
-        let mut reduced = Profile::new(profile.axis()).ok()?;
-        for quantity in self.target.columns.iter().map(|c| c.quantity) {
-            reduced.push(quantity, profile.get(quantity)?.to_vec()).ok()?;
-        }
-        Some(reduced)
-    }
-
-    fn residual_figure(&self, page: usize, columns: &[super::Column], profiles: &[(&str, Profile)]) -> Figure {
-        let highest = columns.iter().flat_map(|c| &c.levels).fold(0.0_f64, |m, level| m.max(level.z.abs()));
-        let (factor, unit) = readable_unit(highest, quantity::Z.unit);
-        let unit_of = if self.target.known { "σ" } else { "of the largest" };
-        let panel = |(k, column): (usize, &super::Column)| {
-            let of = |(i, (name, profile)): (usize, &(&str, Profile))| {
-                let one = Target { columns: vec![column.clone()], known: self.target.known };
-                let residuals = one.residuals(profile).unwrap_or_default();
-                Curve {
-                    name: if k == 0 { (*name).into() } else { String::new() },
-                    points: residuals
-                        .iter()
-                        .zip(&column.levels)
-                        .map(|(r, level)| Some((*r, level.z * factor)))
-                        .collect(),
-                    colour: i + 1,
-                    marker: Some([Marker::Square, Marker::Triangle][i % 2]),
-                    ..Curve::default()
-                }
-            };
-            let zero =
-                [column.levels.first(), column.levels.last()].map(|level| level.map(|level| (0.0, level.z * factor)));
-            let zero = Curve { points: zero.into(), line: Some(Dash::Dotted), ..Curve::default() };
-            let curves = std::iter::once(zero).chain(profiles.iter().enumerate().map(of)).collect();
-            Panel { x: Axis::linear(&format!("residual of {}", column.quantity.symbol), unit_of), curves }
-        };
-        Figure {
-            stem: if page == 0 { "residuals".into() } else { format!("residuals_{}", page + 1) },
-            caption: "Model less data before the fit and after it, over the elevation z.".into(),
-            y: Axis::linear("elevation z", unit),
-            panels: columns.iter().enumerate().map(panel).collect(),
-            levels: Vec::new(),
-            tint_below: None,
-        }
     }
 }
 
