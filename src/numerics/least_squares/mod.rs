@@ -25,6 +25,8 @@ pub use statistics::Statistics;
 const STEP: f64 = 1e-4;
 /// Relative changes of the sum of squares, and of the parameters, at which the iteration ends.
 const TOLERANCE: f64 = 1e-10;
+/// Share of the derivative that is exact.
+const ACCURATE: f64 = 1e-6;
 /// Most trials per parameter.
 const PATIENCE: usize = 40;
 /// Largest remaining step of a minimum, in standard errors.
@@ -148,14 +150,18 @@ fn free(jacobian: &DMatrix<f64>, held: &[bool]) -> DMatrix<f64> {
     jacobian.select_columns(&columns)
 }
 
-/// The remaining step: what of the residuals still lies along the derivative, per parameter, over what does not.
+/// The remaining step: what of the residuals still lies along the derivative, per parameter, over what does not. Directions
+/// that the residuals do not depend on have none left.
 fn offset(jacobian: &DMatrix<f64>, residuals: &DVector<f64>) -> f64 {
     let (rows, columns) = jacobian.shape();
     if columns == 0 {
         return 0.0;
     }
-    let Some(u) = SVD::new(jacobian.clone(), true, false).u else { return f64::INFINITY };
-    let along = (u.transpose() * residuals).norm_squared();
+    let svd = SVD::new(jacobian.clone(), true, false);
+    let Some(u) = svd.u else { return f64::INFINITY };
+    let floor = ACCURATE * svd.singular_values.max();
+    let known = u.column_iter().zip(svd.singular_values.iter()).filter(|(_, s)| **s > floor);
+    let along = known.map(|(u, _)| u.dot(residuals).powi(2)).sum::<f64>();
     // Residuals in units of their standard error are not smaller than it.
     let across = (residuals.norm_squared() - along).max(0.0) / rows.saturating_sub(columns).max(1) as f64;
     if along == 0.0 { 0.0 } else { (along / columns as f64 / across).sqrt() }

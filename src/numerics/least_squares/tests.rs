@@ -122,3 +122,17 @@ fn errors_are_those_of_many_noisy_repeats() {
     let measured = product / (spread[0] * spread[1]).sqrt();
     assert!(correlation > 0.3 && (measured - correlation).abs() < 0.1, "{measured} {correlation}");
 }
+
+#[test]
+fn what_the_data_do_not_tell_apart_is_a_minimum_all_the_same() {
+    // Only the product of the parameters matters: their logarithms have one direction that is known, and one that is not.
+    let f = |p: &[f64]| {
+        Ok([1.0, 2.0, 4.0].iter().zip([0.1, -0.1, 0.2]).map(|(t, e)| t * (p[0] + p[1] - 1.0) + e).collect())
+    };
+    let found = fit(&[0.0, 0.5], f);
+    assert_eq!(found.ended, Ok(()));
+    let told = Statistics::of(&found.residuals, found.jacobian.as_ref().unwrap(), &found.held, true).unwrap();
+    assert!(told.correlations[0][1] < -0.999_999 && told.errors[0] > 1e3, "{told:?}");
+    let (direction, error) = &told.weakest;
+    assert!((direction[0] + direction[1]).abs() < 1e-6 && *error > 1e3, "{told:?}");
+}

@@ -12,6 +12,8 @@ use crate::units::significant;
 /// Distance of χ² from its mean, and of the correlation of neighbouring residuals from none, that is no chance any more
 /// [standard deviations].
 const ASTRAY: f64 = 3.0;
+/// Residuals below this share of those before are those of a model that made the data.
+const EXACT: f64 = 1e-6;
 /// Fewest residuals of a column whose neighbours are compared.
 const FEW: usize = 8;
 
@@ -72,8 +74,9 @@ impl Found {
 
     fn fitted(&self) -> Vec<Fitted<'_>> {
         let Parameters { keys, names, start, bounds, .. } = &self.parameters;
+        let values = self.parameters.values(&self.fit.x);
         let of = |i: usize| {
-            let value = self.fit.x[i].exp();
+            let value = values[i];
             let side = if value < (bounds[i].0 * bounds[i].1).sqrt() { "lower" } else { "upper" };
             let ln = self.statistics.as_ref().map(|s| s.errors[i]).filter(|e| e.is_finite());
             let quantile = self.statistics.as_ref().map_or(f64::NAN, |s| quantile(self.target.known, s.freedom));
@@ -121,45 +124,51 @@ impl Found {
             };
             say(one.name, text);
         }
-        let Some(statistics) = &self.statistics else { return findings };
-        for (i, j, correlation) in statistics.pairs().filter(|p| p.2.abs() > ALIKE) {
-            let left = (1.0 - correlation * correlation).max(0.0).sqrt();
-            let text = format!(
-                "{} and {} cannot be told apart by these data: correlation {}; fix one of them, and the error of the other falls to {} of this",
-                fitted[i].name,
-                fitted[j].name,
-                correlation_text(correlation),
-                percent(left)
-            );
-            say("not told apart", text);
+        if let Some(statistics) = &self.statistics {
+            for (i, j, correlation) in statistics.pairs().filter(|p| p.2.abs() > ALIKE) {
+                let left = (1.0 - correlation * correlation).max(0.0).sqrt();
+                let text = format!(
+                    "{} and {} cannot be told apart by these data: correlation {}, beyond {ALIKE}; fix one of them, and the error of the other falls to {} of this",
+                    fitted[i].name,
+                    fitted[j].name,
+                    correlation_text(correlation),
+                    percent(left)
+                );
+                say("not told apart", text);
+            }
+            for one in fitted.iter().filter(|one| one.held.is_none() && one.error.is_none_or(|e| e > one.value)) {
+                let text = format!("{}: its standard error is more than its value; leave it as it is", one.name);
+                say("not determined", text);
+            }
+            if fitted.iter().filter(|one| one.held.is_none()).count() > 1 {
+                let (direction, error) = &statistics.weakest;
+                let free = fitted.iter().zip(direction).filter(|(one, _)| one.held.is_none());
+                let powers: Vec<String> = free.map(|(one, power)| format!("{}^{power:.2}", one.name)).collect();
+                let combination = powers.join(" ");
+                if *error < 1.0 {
+                    say("known least", format!("{combination} within ± {}", percent(*error)));
+                } else {
+                    say("undetermined", format!("{combination}: its standard error is more than its value"));
+                }
+            }
         }
-        for one in fitted.iter().filter(|one| one.held.is_none() && one.error.is_none_or(|e| e > one.value)) {
-            let text = format!("{}: its standard error is more than its value; leave it as it is", one.name);
-            say("not determined", text);
-        }
-        if fitted.iter().filter(|one| one.held.is_none()).count() > 1 {
-            let (direction, error) = &statistics.weakest;
-            let free = fitted.iter().zip(direction).filter(|(one, _)| one.held.is_none());
-            let powers: Vec<String> = free.map(|(one, power)| format!("{}^{power:.2}", one.name)).collect();
-            say("known least", format!("{} within ± {}", powers.join(" "), share(*error)));
-        }
-        let mut text = self.quality(statistics);
+        let mut text = self.quality();
         text += &format!("; {} iterations, {} runs of the model", self.fit.iterations, self.fit.evaluations);
         if self.fit.refusals > 0 {
             text += &format!(", {} without an answer", self.fit.refusals);
         }
         say("fit", text);
-        for text in self.misfits(statistics) {
+        for text in self.misfits() {
             say("bear in mind", text);
         }
         findings
     }
 
     /// Where data, model and errors do not go together.
-    fn misfits(&self, statistics: &Statistics) -> Vec<String> {
+    fn misfits(&self) -> Vec<String> {
         let mut misfits = Vec::new();
-        let freedom = statistics.freedom as f64;
-        let off = (statistics.chi2 - freedom) / (2.0 * freedom).sqrt();
+        let freedom = self.freedom() as f64;
+        let off = (self.chi2() - freedom) / (2.0 * freedom).sqrt();
         if self.target.known && off > ASTRAY {
             misfits.push("the data lie further from the model than their errors allow: the model or the errors are wrong, and with them the errors above".into());
         } else if self.target.known && off < -ASTRAY {
@@ -167,6 +176,9 @@ impl Found {
                 "the data lie closer to the model than their errors allow: those are too large or not independent"
                     .into(),
             );
+        }
+        if self.chi2().sqrt() <= EXACT * self.fit.before {
+            return misfits;
         }
         for (column, alike) in
             self.alike().filter(|(column, alike)| alike * (column.levels.len() as f64).sqrt() > ASTRAY)
@@ -192,25 +204,30 @@ impl Found {
         split.filter(|(column, _)| column.levels.len() >= FEW)
     }
 
+    fn chi2(&self) -> f64 {
+        self.fit.residuals.iter().map(|r| r * r).sum()
+    }
+
+    /// Values less free parameters.
+    fn freedom(&self) -> usize {
+        self.target.count().saturating_sub(self.fit.held.iter().filter(|held| !**held).count())
+    }
+
+    /// χ² per degree of freedom.
+    fn reduced_chi2(&self) -> Option<f64> {
+        (self.freedom() > 0).then(|| self.chi2() / self.freedom() as f64)
+    }
+
     /// How well the model fits, before and after.
-    fn quality(&self, statistics: &Statistics) -> String {
-        let (count, before) = (self.target.count() as f64, self.fit.before);
+    fn quality(&self) -> String {
+        let (chi2, before, freedom) = (self.chi2(), self.fit.before * self.fit.before, self.freedom());
         if self.target.known {
-            let chi2 = significant(statistics.chi2, 4);
-            format!(
-                "χ² {chi2} for {} degrees of freedom, {} for one, {} before",
-                statistics.freedom,
-                significant(statistics.chi2 / statistics.freedom.max(1) as f64, 3),
-                significant(before * before, 4)
-            )
+            let each = self.reduced_chi2().map(|x| format!(" ({} for each)", significant(x, 3))).unwrap_or_default();
+            let [after, before] = [chi2, before].map(|x| significant(x, 4));
+            format!("χ² {after} for {freedom} degrees of freedom{each}, {before} before")
         } else {
-            let rms = |norm: f64| share(norm / count.sqrt());
-            let after = rms(statistics.chi2.sqrt());
-            format!(
-                "residuals {after} of the largest value, {} before, {} degrees of freedom",
-                rms(before),
-                statistics.freedom
-            )
+            let [after, before] = [chi2, before].map(|x| share((x / self.target.count() as f64).sqrt()));
+            format!("residuals {after} of the largest value, {before} before, {freedom} degrees of freedom")
         }
     }
 
@@ -231,20 +248,18 @@ impl Found {
         let statistics = self.statistics.as_ref();
         let alike = statistics.into_iter().flat_map(|s| s.pairs().filter(|p| p.2.abs() > ALIKE));
         let columns = self.target.columns.iter();
-        let (chi, before) = (self.fit.residuals.iter().map(|r| r * r).sum::<f64>().sqrt(), self.fit.before);
+        let before = self.fit.before;
         json!({
             "converged": self.fit.ended.is_ok(),
             "sigma_known": self.target.known,
-            "chi2": chi * chi,
+            "chi2": self.chi2(),
             "chi2_before": before * before,
-            "residual_norm": chi,
-            "residual_norm_before": before,
-            "degrees_of_freedom": statistics.map(|s| s.freedom),
+            "degrees_of_freedom": self.freedom(),
             "iterations": self.fit.iterations,
             "model_runs": self.fit.evaluations,
             "model_runs_failed": self.fit.refusals,
-            "chi2_reduced": statistics.filter(|s| s.freedom > 0).map(|s| s.chi2 / s.freedom as f64),
-            "bear_in_mind": statistics.map(|s| self.misfits(s)).unwrap_or_default(),
+            "chi2_reduced": self.reduced_chi2(),
+            "bear_in_mind": self.misfits(),
             "known_least": statistics.map(|s| json!({ "direction": s.weakest.0, "stderr_ln": s.weakest.1 })),
             "offset": Some(self.fit.offset).filter(|x| x.is_finite()),
             "singular_values": statistics.map(|s| s.singular.clone()),

@@ -84,8 +84,11 @@ pub fn plan(request: &Request) -> Result<(Plan, Next), StudyError> {
             let parameters = parameters.clone();
             Box::new(move |_, observer| follow(parameters, measured, target, observer))
         }
-        // The first point says why.
-        Err(_) => Box::new(|_, _| (Vec::new(), Box::new(|_| Judgement::default()))),
+        Err(error) if error.code == "no-profile" => {
+            let hint = "fit a case with a profile".into();
+            return Err(StudyError::BadData { file: request.case.clone(), reason: error.message, hint });
+        }
+        Err(error) => Box::new(|_, _| failed(error)),
     };
     let listed = |name: &str, list: &[String]| (!list.is_empty()).then(|| (name.to_owned(), list.join(", ")));
     let mut options = vec![("to".to_owned(), request.data.clone())];
@@ -114,13 +117,15 @@ fn point(parameters: &Parameters, series: &str, ln: &[f64]) -> Point {
     Point { case: None, series: series.into(), values, overrides }
 }
 
+/// No fit at all.
+fn failed(error: ErrorReport) -> (Vec<Point>, Judge) {
+    (Vec::new(), Box::new(move |_| Judgement { failure: Some(error), ..Judgement::default() }))
+}
+
 /// The fit: the point where it ended, and what is to be said of it.
 fn follow(parameters: Parameters, data: Subject, target: Target, observer: &dyn Observer) -> (Vec<Point>, Judge) {
-    let nothing = |error: ErrorReport| -> (Vec<Point>, Judge) {
-        (Vec::new(), Box::new(move |_| Judgement { failure: Some(error), ..Judgement::default() }))
-    };
     match parameters.fit(&target, observer) {
-        Err(error) => nothing(error),
+        Err(error) => failed(error),
         Ok(fit) => {
             let series = if fit.ended.is_ok() { "fitted" } else { "last" };
             let point = point(&parameters, series, &fit.x);

@@ -88,15 +88,19 @@ impl Parameters {
         Ok((lower, upper))
     }
 
+    /// The values with these logarithms [SI]. A bound is met as it was given, not as the exponential of its logarithm.
+    #[must_use]
+    pub fn values(&self, ln: &[f64]) -> Vec<f64> {
+        let value = |x: &f64, (low, high): &(f64, f64)| {
+            [low, high].into_iter().find(|bound| bound.ln() == *x).copied().unwrap_or_else(|| x.exp())
+        };
+        ln.iter().zip(&self.bounds).map(|(x, bounds)| value(x, bounds)).collect()
+    }
+
     /// What is set in the case for these logarithms.
     #[must_use]
     pub fn settings(&self, ln: &[f64]) -> Vec<String> {
-        // A bound is met as it was given, not as the exponential of its logarithm.
-        let value = |x: f64, (low, high): (f64, f64)| {
-            [low, high].into_iter().find(|bound| bound.ln() == x).unwrap_or_else(|| x.exp())
-        };
-        let pairs = self.keys.iter().zip(ln.iter().zip(&self.bounds));
-        pairs.map(|(key, (x, bounds))| format!("{key}={:e}", value(*x, *bounds))).collect()
+        self.keys.iter().zip(self.values(ln)).map(|(key, value)| format!("{key}={value:e}")).collect()
     }
 
     /// The profile of the case with these logarithms.
