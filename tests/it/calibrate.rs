@@ -107,9 +107,9 @@ impl Twin {
             let Some(told) = told.filter(|_| fit.ended.is_ok()) else { continue };
             all.ended += 1;
             let mut together = true;
-            for i in 0..n {
+            for (i, truth) in truth.iter().enumerate() {
                 let value = fit.x[i].exp();
-                let pull = (value - truth[i]) / (value * told.errors[i]);
+                let pull = (value - truth) / (value * told.errors[i]);
                 let near = pull.abs() <= 2.0;
                 all.pull[i] += pull * pull / repeats as f64;
                 all.within[i] += usize::from(near);

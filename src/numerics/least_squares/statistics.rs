@@ -67,13 +67,16 @@ impl Statistics {
             _ => f64::NAN,
         };
         let weakest = *order.last()?;
+        // The sign of a direction means nothing: its largest component is positive.
+        let sign =
+            rows.row(weakest).iter().copied().max_by(|a, b| a.abs().total_cmp(&b.abs())).map_or(1.0, f64::signum);
         Some(Self {
             chi2,
             freedom,
             errors: place.iter().map(|i| i.map_or(f64::NAN, deviation)).collect(),
             correlations: place.iter().map(|i| place.iter().map(|j| correlation(i, j)).collect()).collect(),
             weakest: (
-                place.iter().map(|i| i.map_or(0.0, |i| rows[(weakest, i)])).collect(),
+                place.iter().map(|i| i.map_or(0.0, |i| sign * rows[(weakest, i)])).collect(),
                 variance.sqrt() / svd.singular_values[weakest].max(floor),
             ),
             singular,

@@ -142,7 +142,7 @@ impl Found {
             }
             if fitted.iter().filter(|one| one.held.is_none()).count() > 1 {
                 let (direction, error) = &statistics.weakest;
-                let free = fitted.iter().zip(direction).filter(|(one, _)| one.held.is_none());
+                let free = fitted.iter().zip(direction).filter(|(_, power)| power.abs() >= 0.005);
                 let powers: Vec<String> = free.map(|(one, power)| format!("{}^{power:.2}", one.name)).collect();
                 let combination = powers.join(" ");
                 if *error < 1.0 {

@@ -54,7 +54,8 @@ impl Parameters {
             }
             let bounds = range.map_or(Ok((0.0, f64::INFINITY)), |range| all.bounds(&key, start, range));
             all.bounds.push(bounds.map_err(|refused| bad(argument, refused))?);
-            (all.keys.push(key), all.start.push(start));
+            all.keys.push(key);
+            all.start.push(start);
         }
         all.names = all.keys.iter().map(|key| short(key, &all.keys)).collect();
         Ok(all)
