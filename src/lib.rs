@@ -19,7 +19,7 @@
 //! | [`plot`] | figures and pages |
 //! | [`compare`] | several runs and measured profiles side by side |
 //! | [`output`] | the folder of a run, of a comparison, of a study |
-//! | [`study`] | one case at many points: `converge`, `sweep`, `chart`, `stability` |
+//! | [`study`] | one case at many points: `converge`, `sweep`, `chart`, `stability`, `calibrate` |
 //! | [`advise`] | the least model that a scene needs |
 //! | [`validate`] | re-runs what the cases claim |
 //! | [`cli`] | the command line, one file per verb |

@@ -71,6 +71,28 @@ impl Case {
         toml::to_string(&self.scene).unwrap_or_default()
     }
 
+    /// The numbers of the case that are no counts, by key, `table.key`, in SI, defaults filled in; and the keys that hold
+    /// anything else.
+    #[must_use]
+    pub fn numbers(&self) -> (Vec<(String, f64)>, Vec<String>) {
+        let (mut numbers, mut others) = (Vec::new(), Vec::new());
+        let mut open = vec![(String::new(), serde_json::to_value(&self.scene).unwrap_or_default())];
+        while let Some((path, value)) = open.pop() {
+            match value {
+                serde_json::Value::Object(table) => open.extend(
+                    table
+                        .into_iter()
+                        .rev()
+                        .map(|(key, value)| (if path.is_empty() { key } else { format!("{path}.{key}") }, value)),
+                ),
+                serde_json::Value::Number(x) if x.is_f64() => numbers.push((path, x.as_f64().unwrap_or(f64::NAN))),
+                serde_json::Value::Null => {}
+                _ => others.push(path),
+            }
+        }
+        (numbers, others)
+    }
+
     /// The case as an error: faults that only a comparison of its values shows, by path.
     #[must_use]
     pub fn refuse(self, faults: Vec<(String, Fault)>) -> CaseError {

@@ -1,6 +1,7 @@
 //! The command line: one file per verb. Answers go to standard output, everything else to standard error.
 
 mod advise;
+mod calibrate;
 mod chart;
 mod check;
 mod compare;
@@ -68,6 +69,8 @@ enum Verb {
     Chart(chart::Chart),
     /// Map where a case holds over one key or two, and how it fails beyond
     Stability(stability::Stability),
+    /// Fit numbers of a case to a measured profile, with their errors
+    Calibrate(calibrate::Calibrate),
     /// Name the least model that serves a scene, and what in it can go
     Advise(advise::Advise),
     /// Re-run what the cases claim and write the table
@@ -203,6 +206,7 @@ pub fn execute() -> ExitCode {
         Verb::Sweep(verb) => verb.study.json,
         Verb::Chart(verb) => verb.study.json,
         Verb::Stability(verb) => verb.study.json,
+        Verb::Calibrate(verb) => verb.study.json,
         Verb::Advise(verb) => verb.json,
         Verb::Validate(verb) => verb.json,
         Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
@@ -219,6 +223,7 @@ pub fn execute() -> ExitCode {
         Verb::Sweep(verb) => verb.execute(),
         Verb::Chart(verb) => verb.execute(),
         Verb::Stability(verb) => verb.execute(),
+        Verb::Calibrate(verb) => verb.execute(),
         Verb::Advise(verb) => verb.execute(),
         Verb::Validate(verb) => verb.execute(),
         Verb::Schema(verb) => verb.execute(),

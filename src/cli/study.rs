@@ -12,7 +12,7 @@ use crate::output::Mode;
 use crate::result::{ErrorReport, Snapshot, Status, Watch};
 use crate::runtime::interrupt;
 use crate::study::converge::Judge;
-use crate::study::{Conducted, Observer, Plan, Settings, conduct};
+use crate::study::{Conducted, Next, Observer, Plan, Settings, conduct};
 
 /// How a study is conducted.
 #[derive(Debug, Args)]
@@ -55,11 +55,22 @@ impl Observer for Shown {
             let _ = progress.see(&Snapshot { stage: "points", fraction, quantity: None });
         }
     }
+
+    fn see(&self, snapshot: &Snapshot<'_>) {
+        if let Ok(mut progress) = self.0.lock() {
+            let _ = progress.see(snapshot);
+        }
+    }
 }
 
 impl StudyArgs {
     /// Conducts a study and says what came of it; `options` are the arguments of its verb.
     pub fn conduct(&self, case: &CaseArgs, plan: &Plan, judge: Judge, options: &[String]) -> Result<(), CliError> {
+        self.conduct_on(case, plan, Box::new(|_, _| (Vec::new(), judge)), options)
+    }
+
+    /// The same, with points that follow from the first ones.
+    pub fn conduct_on(&self, case: &CaseArgs, plan: &Plan, next: Next, options: &[String]) -> Result<(), CliError> {
         let sets = case.overrides.iter().map(|set| format!("--set {}", word(set)));
         let words = ["bedload".to_owned(), plan.verb.into(), word(&case.case)].into_iter().chain(sets);
         let command = words.chain(options.iter().cloned()).collect::<Vec<_>>().join(" ");
@@ -72,7 +83,7 @@ impl StudyArgs {
             command,
             observer: &shown,
         };
-        let found = conduct(plan, &settings, judge)?;
+        let found = conduct(plan, &settings, next)?;
         let command = settings.command;
         drop(shown);
         let mut value = found.record.clone();
@@ -81,7 +92,7 @@ impl StudyArgs {
         }
         match found.status {
             Status::Failed => {
-                let error = every_point(&found);
+                let error = found.judgement.failure.clone().unwrap_or_else(|| every_point(&found));
                 if let Value::Object(object) = &mut value {
                     object.insert("error".into(), json!(error));
                 }

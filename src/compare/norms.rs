@@ -153,7 +153,8 @@ fn spacing(levels: &[(f64, f64)], low: f64, high: f64) -> f64 {
 }
 
 /// Linear interpolation, except across the top of the grains for a column that jumps there.
-fn interpolated(profile: &Profile, quantity: &Quantity, z: f64) -> Option<f64> {
+#[must_use]
+pub fn interpolated(profile: &Profile, quantity: &Quantity, z: f64) -> Option<f64> {
     let jumps = [quantity::PHI.name, quantity::FLUX.name, quantity::U_MIXTURE.name].contains(&quantity.name);
     if let (true, Some(phi)) = (jumps, profile.get(&quantity::PHI)) {
         let levels = profile.axis();

@@ -3,6 +3,7 @@
 pub mod banded;
 pub mod block_thomas;
 pub mod dual;
+pub mod least_squares;
 pub mod levels;
 pub mod quadrature;
 pub mod root;

@@ -1,4 +1,5 @@
-//! The folder of a study: `study.json`, `points.csv`, `report.html`, figures on demand, and one run folder per point.
+//! The folder of a study: `study.json`, `points.csv`, `parameters.csv` where some were fitted, `report.html`, figures on
+//! demand, and one run folder per point.
 
 use std::fs;
 use std::io::{self, Write};
@@ -14,10 +15,11 @@ use crate::plot::Figure;
 use crate::result::Status;
 
 /// Files that the folder of a study may hold; anything else in it is not ours.
-pub(super) const OURS: &[&str] = &[RECORD, TABLE, "report.html", FIGURES, POINTS];
+pub(super) const OURS: &[&str] = &[RECORD, TABLE, PARAMETERS, "report.html", FIGURES, POINTS];
 /// Everything that a study has to say; the folder is known by it.
 const RECORD: &str = "study.json";
 const TABLE: &str = "points.csv";
+const PARAMETERS: &str = "parameters.csv";
 /// The folder of the run folders.
 pub(super) const POINTS: &str = "points";
 
@@ -77,6 +79,14 @@ impl StudyFolder {
         self.0.write(RECORD, |to| writeln!(to, "{record:#}"))?;
         let points = self.0.place(POINTS);
         fs::create_dir_all(&points).map_err(|error| OutputError::Interrupted { path: points, error })
+    }
+
+    /// Writes the parameters that were fitted.
+    ///
+    /// # Errors
+    /// [`OutputError::Interrupted`] with the file that cannot be written.
+    pub fn write_parameters(&self, table: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Result<(), OutputError> {
+        self.0.write(PARAMETERS, table)
     }
 
     /// Writes table, page and figures, the record last, and puts the study in its place. Returns the figures that were drawn

@@ -123,7 +123,7 @@ fn accepted(points: Vec<Point>, case: &str, overrides: &[String]) -> Vec<Point> 
 }
 
 /// A value with its standard error, if a reference has the quantity.
-type Value = Box<dyn Fn(&Quantity) -> Option<(f64, Option<f64>)>>;
+type Value = Box<dyn Fn(&Quantity) -> Option<(f64, Option<f64>)> + Send>;
 
 /// Numbers of a reference: their place in words, and each with its value and standard error.
 struct Numbers(String, Value);

@@ -39,7 +39,7 @@ pub struct Request {
 }
 
 /// Reads what the rows say.
-pub type Judge = Box<dyn FnOnce(&[Row]) -> Judgement>;
+pub type Judge = Box<dyn FnOnce(&[Row]) -> Judgement + Send>;
 
 impl Over {
     /// As on the command line.

@@ -1,12 +1,13 @@
 //! Studies: one case at many points, run in parallel into ordinary run folders, and what the points say together.
 //!
 //! ```text
-//! converge, sweep, chart, stability ─► Plan (points: overrides of one case) ─► conduct: run, judge, write ─► study.json, points.csv, page
+//! converge, sweep, chart, stability, calibrate ─► Plan (points: overrides of one case) ─► conduct: run, judge, write ─► study.json, points.csv, page
 //! ```
 //!
 //! A verb makes a [`Plan`] and judges its [`Row`]s: measures per point, findings in words, figures. Everything else is the
 //! same for all: [`conduct`] runs the points, skips those that are done, turns a failure into a row, and writes the folder.
 
+pub mod calibrate;
 pub mod chart;
 pub mod converge;
 mod coupled;
@@ -29,16 +30,17 @@ use std::path::PathBuf;
 use serde_json::{Map, Value};
 
 use crate::case::{CaseError, nearest};
+use crate::compare::DataError;
 use crate::output::OutputError;
 use crate::plot::Figure;
 use crate::result::{Cost, ErrorReport, Profile, Results, Status};
 
-pub use runner::{Conducted, Observer, Settings, conduct};
+pub use runner::{Conducted, Next, Observer, Settings, conduct};
 
 /// What is run: points of one case.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// `converge`, `sweep`, `chart` or `stability`
+    /// `converge`, `sweep`, `chart`, `stability` or `calibrate`
     pub verb: &'static str,
     /// file or shipped case, as typed
     pub case: String,
@@ -101,6 +103,23 @@ pub struct Judgement {
     pub facts: Map<String, Value>,
     /// drawn in this order
     pub figures: Vec<Figure>,
+    /// parameters that were fitted
+    pub parameters: Option<Numbers>,
+    /// why the study failed, whatever its points say
+    pub failure: Option<ErrorReport>,
+}
+
+/// A table whose rows are a name and numbers.
+#[derive(Clone, Debug)]
+pub struct Numbers {
+    /// its heading on the page
+    pub heading: &'static str,
+    /// a sentence before it
+    pub lead: String,
+    /// heads of the columns, that of the names first
+    pub head: Vec<String>,
+    /// name and numbers; `None` is not known
+    pub rows: Vec<(String, Vec<Option<f64>>)>,
 }
 
 /// Why a study cannot be made. Points that fail are rows, not errors.
@@ -138,6 +157,37 @@ pub enum StudyError {
         /// what is wrong with it
         reason: String,
     },
+    /// a `--fit` that is no number of the case
+    #[error("--fit {key}: {reason}")]
+    BadFit {
+        /// as typed
+        key: String,
+        /// what is wrong with it
+        reason: String,
+        /// what to give
+        hint: String,
+    },
+    /// a `--sigma` that cannot be used
+    #[error("--sigma {argument}: {reason}")]
+    BadSigma {
+        /// as typed
+        argument: String,
+        /// what is wrong with it
+        reason: String,
+    },
+    /// measurements that the model says nothing of
+    #[error("{file}: {reason}")]
+    BadData {
+        /// the file
+        file: String,
+        /// what is wrong with it
+        reason: String,
+        /// what to give
+        hint: String,
+    },
+    /// a profile CSV that cannot be used
+    #[error(transparent)]
+    Data(#[from] DataError),
     /// the case is wrong at every point
     #[error(transparent)]
     Case(#[from] Box<CaseError>),
@@ -163,6 +213,10 @@ impl StudyError {
             Self::NoClosedForm { .. } => "no-closed-form",
             Self::BadReference { .. } => "bad-reference",
             Self::BadOver { .. } => "bad-over",
+            Self::BadFit { .. } => "bad-fit",
+            Self::BadSigma { .. } => "bad-sigma",
+            Self::BadData { .. } => "bad-data",
+            Self::Data(error) => error.fault.code(),
             Self::Case(_) => "case",
             Self::Output(error) => error.code(),
             Self::Threads { .. } => "no-threads",
@@ -177,6 +231,9 @@ impl StudyError {
             Self::NoClosedForm { .. } => "--reference finest measures against the finest mesh".into(),
             Self::BadReference { .. } => "give the folder of a finished run, `exact` or `finest`".into(),
             Self::BadOver { argument, .. } => over_hint(argument),
+            Self::BadFit { hint, .. } | Self::BadData { hint, .. } => hint.clone(),
+            Self::BadSigma { .. } => "give one sigma in SI, or COLUMN=sigma; it holds where the data have none".into(),
+            Self::Data(error) => error.fault.hint(),
             Self::Case(_) => String::new(),
             Self::Output(error) => error.hint().unwrap_or_default().into(),
             Self::Threads { .. } => "ask for fewer with --threads".into(),

@@ -1,7 +1,7 @@
 //! The page of a study: what was found, the figures, every point, the origin.
 
 use super::record::Head;
-use super::{Judgement, Row};
+use super::{Judgement, Numbers, Row};
 use crate::compare::origin;
 use crate::plot::{Cell, Document, Section, document_html};
 use crate::result::{Cost, Provenance, Status, quantity};
@@ -27,25 +27,44 @@ pub(super) fn html(
 ) -> String {
     let title = format!("{} {}", head.plan.verb, head.name);
     let found = judgement.findings.iter().map(|(label, text)| vec![label.as_str().into(), text.as_str().into()]);
-    let sections = [
-        Section::Table {
-            heading: "Found",
-            lead: String::new(),
-            head: vec!["what".into(), "result".into()],
-            rows: found.collect(),
-        },
-        Section::Warnings(warnings(head, rows)),
+    let mut sections = vec![Section::Table {
+        heading: "Found",
+        lead: String::new(),
+        head: vec!["what".into(), "result".into()],
+        rows: found.collect(),
+    }];
+    sections.extend(judgement.parameters.as_ref().map(numbers));
+    sections.extend([
+        Section::Warnings(warnings(head, rows, judgement)),
         Section::Figures(&judgement.figures),
         points(head, rows, judgement),
         origin(cost, &Provenance { source: head.command.into(), ..provenance.clone() }),
-    ];
+    ]);
     document_html(&Document { title: &title, subtitle: &judgement.subtitle, sections: &sections })
 }
 
-/// The points that are missing, and why.
-fn warnings(head: &Head<'_>, rows: &[Row]) -> Vec<String> {
+/// What failed as a whole, and the points that are missing, and why.
+fn warnings(head: &Head<'_>, rows: &[Row], judgement: &Judgement) -> Vec<String> {
     let missing = rows.iter().filter(|row| row.status != Status::Done);
-    missing.map(|row| format!("{}: {}.", row.point.name(&head.plan.varied), row.reason())).collect()
+    let missing = missing.map(|row| format!("{}: {}.", row.point.name(&head.plan.varied), row.reason()));
+    judgement.failure.iter().map(|failure| format!("{}.", failure.message)).chain(missing).collect()
+}
+
+/// A table of names and numbers.
+fn numbers(table: &Numbers) -> Section<'static> {
+    let cell = |x: &Option<f64>| match x {
+        Some(x) => Cell::Number { shown: significant(*x, 4), full: format!("{x:?}") },
+        None => Cell::Empty("not known"),
+    };
+    let row = |(name, values): &(String, Vec<Option<f64>>)| {
+        std::iter::once(Cell::Text(name.clone())).chain(values.iter().map(cell)).collect()
+    };
+    Section::Table {
+        heading: table.heading,
+        lead: table.lead.clone(),
+        head: table.head.iter().map(|name| name.replace('_', " ")).collect(),
+        rows: table.rows.iter().map(row).collect(),
+    }
 }
 
 fn points(head: &Head<'_>, rows: &[Row], judgement: &Judgement) -> Section<'static> {

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 
-use super::{Judgement, Plan, Row};
+use super::{Judgement, Numbers, Plan, Row};
 use crate::output::StudyFolder;
 use crate::result::{Cost, Provenance, Status};
 
@@ -59,6 +59,9 @@ impl Head<'_> {
         provenance: &Provenance,
     ) -> Value {
         let mut object = self.object(status);
+        if let Some(failure) = &judgement.failure {
+            object.insert("error".into(), json!(failure));
+        }
         object.insert("facts".into(), judgement.facts.clone().into());
         let points = rows.iter().enumerate().map(|(i, row)| self.point(i, row, judgement));
         object.insert("points".into(), points.collect::<Vec<_>>().into());
@@ -124,6 +127,23 @@ pub(super) fn write_table(
         fields.push(row.reason());
         fields.push(row.sha256.as_deref().map(StudyFolder::point_name).unwrap_or_default());
         writer.write_record(&fields)?;
+    }
+    writer.flush()
+}
+
+/// `parameters.csv`: a table of words and numbers under `# ` lines with `comments`. What is not known is an empty field.
+///
+/// # Errors
+/// Whatever the writer returns.
+pub(super) fn write_numbers(to: &mut dyn Write, table: &Numbers, comments: &[String]) -> io::Result<()> {
+    for comment in comments {
+        writeln!(to, "# {}", comment.replace(['\n', '\r'], " "))?;
+    }
+    let mut writer = csv::Writer::from_writer(to);
+    writer.write_record(&table.head)?;
+    for (name, values) in &table.rows {
+        let values = values.iter().map(|x| x.map(|x| format!("{x:?}")).unwrap_or_default());
+        writer.write_record(std::iter::once(name.clone()).chain(values))?;
     }
     writer.flush()
 }

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde_json::Value;
 
+use super::converge::Judge;
 use super::{Judgement, Plan, Point, Row, StudyError, page, record};
 use crate::case::{Case, CaseError};
 use crate::output::{
@@ -28,7 +29,12 @@ pub trait Observer: Sync {
     fn stop(&self) -> bool;
     /// `done` of `all` points have ended.
     fn done(&self, done: usize, all: usize);
+    /// Work between points: a number that shrinks.
+    fn see(&self, _snapshot: &Snapshot<'_>) {}
 }
+
+/// What follows from the first rows: further points, and how all rows are judged.
+pub type Next = Box<dyn FnOnce(&[Row], &dyn Observer) -> (Vec<Point>, Judge) + Send>;
 
 /// How a study is conducted; none of it changes a result.
 pub struct Settings<'a> {
@@ -75,15 +81,11 @@ struct Loaded {
     sha256: Option<String>,
 }
 
-/// Runs the points of `plan`, judges them and writes the folder.
+/// Runs the points of `plan` and those that follow from them, judges them and writes the folder.
 ///
 /// # Errors
 /// [`StudyError::Case`] if the case is refused at every point, [`StudyError::Output`], [`StudyError::Threads`].
-pub fn conduct(
-    plan: &Plan,
-    settings: &Settings<'_>,
-    judge: impl FnOnce(&[Row]) -> Judgement,
-) -> Result<Conducted, StudyError> {
+pub fn conduct(plan: &Plan, settings: &Settings<'_>, next: Next) -> Result<Conducted, StudyError> {
     let start = Instant::now();
     let mut loaded: Vec<Loaded> = plan.points.iter().map(|point| load(plan, point)).collect();
     let Some(name) = loaded.iter().find_map(|l| l.case.as_ref().ok().map(|(case, ..)| case.name.clone())) else {
@@ -102,13 +104,21 @@ pub fn conduct(
     (provenance.overrides, provenance.threads) = (plan.overrides.clone(), threads.current_num_threads());
     let head = record::Head { plan, name: &name, identity: &identity, command: &settings.command };
     folder.begin(&head.running(&provenance))?;
-    let (rows, resumed) = threads.install(|| run(plan, loaded, &folder, settings))?;
+    let (rows, resumed, judge) = threads.install(|| -> Result<_, OutputError> {
+        let (mut rows, resumed) = run(plan, &plan.points, loaded, &folder, settings)?;
+        let (points, judge) = next(&rows, settings.observer);
+        let loaded = points.iter().map(|point| load(plan, point)).collect();
+        let (more, again) = run(plan, &points, loaded, &folder, settings)?;
+        rows.extend(more);
+        Ok((rows, resumed + again, judge))
+    })?;
+    let judgement = judge(&rows);
     let status = match () {
         () if rows.iter().any(|row| row.status == Status::Stopped) => Status::Stopped,
-        () if rows.iter().all(|row| row.status == Status::Failed) => Status::Failed,
+        () if judgement.failure.is_some() && settings.observer.stop() => Status::Stopped,
+        () if judgement.failure.is_some() || rows.iter().all(|row| row.status == Status::Failed) => Status::Failed,
         () => Status::Done,
     };
-    let judgement = judge(&rows);
     let cost = Cost {
         solve_s: rows.iter().map(|row| row.cost.solve_s).sum(),
         total_s: start.elapsed().as_secs_f64(),
@@ -120,6 +130,9 @@ pub fn conduct(
     let page = page::html(&head, &rows, &judgement, &cost, &provenance);
     let mut comments: Vec<String> = provenance.lines().into_iter().take(1).collect();
     comments.extend([settings.command.clone(), format!("started {}", provenance.started_utc)]);
+    if let Some(table) = &judgement.parameters {
+        folder.write_parameters(|to| record::write_numbers(to, table, &comments))?;
+    }
     let table = |to: &mut dyn std::io::Write| record::write_table(to, plan, &rows, &judgement, &comments);
     let (figures, kept) = folder.finish((status, &written), table, &page, &judgement.figures, settings.png)?;
     Ok(Conducted { record: written, rows, judgement, status, out, figures, kept, resumed, cost })
@@ -150,6 +163,7 @@ fn identity(plan: &Plan, loaded: &[Loaded]) -> String {
 /// Runs each different case once; points that resolve to the same case share its run.
 fn run(
     plan: &Plan,
+    points: &[Point],
     loaded: Vec<Loaded>,
     folder: &StudyFolder,
     settings: &Settings<'_>,
@@ -174,7 +188,7 @@ fn run(
         },
     );
     let solved: BTreeMap<String, Row> = solved.collect::<Result<_, OutputError>>()?;
-    let rows = plan.points.iter().zip(&loaded).map(|(point, one)| {
+    let rows = points.iter().zip(&loaded).map(|(point, one)| {
         let row = match (&one.sha256, &one.case) {
             (Some(sha256), _) => solved.get(sha256).cloned().unwrap_or_else(|| Row::empty(Status::Stopped)),
             (None, Err(error)) => Row { error: error.reports().into_iter().next(), ..Row::empty(Status::Failed) },

@@ -17,7 +17,7 @@ const RANKS: &[&[&str]] = &[
     &["plot"],
     &["compare"],
     &["output"],
-    &["study", "calibrate", "advise"],
+    &["study", "advise"],
     &["validate"],
     &["cli"],
 ];

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
 mod architecture;
+mod calibrate;
 mod cases_bad;
 mod cases_good;
 mod chart;
