@@ -14,7 +14,7 @@ use crate::numerics::sum::Sum;
 
 const MAGIC: &[u8; 8] = b"bedload\x01";
 /// Version of the layout.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 const HEAD: usize = 8 + 4 + 32 + 8;
 const DIGEST: usize = 32;
 
@@ -66,7 +66,7 @@ impl Writer {
         self.whole(rows.len() as u64);
         rows.iter().flat_map(|row| row.0).for_each(|x| self.number(x));
     }
-    fn words(&mut self, words: impl ExactSizeIterator<Item = u64>) {
+    pub(super) fn words(&mut self, words: impl ExactSizeIterator<Item = u64>) {
         self.whole(words.len() as u64);
         words.for_each(|word| self.whole(word));
     }
@@ -157,6 +157,10 @@ impl<'a> Reader<'a> {
     fn words(&mut self) -> Read<Vec<u64>> {
         let count = self.count()?;
         (0..count).map(|_| self.whole()).collect()
+    }
+    /// Words that are as short as an index.
+    pub(super) fn half_words(&mut self) -> Read<Vec<u32>> {
+        whole32(self.words()?)
     }
     /// Nothing may be left.
     ///
@@ -249,7 +253,7 @@ impl<C: ContactLaw> Engine<C> {
         let gravity = [from.number()?, from.number()?, from.number()?];
         let settings =
             Settings { dt, gravity, skin: from.number()?, largest_overlap: from.number()?, lowest: from.number()? };
-        let mut grains = Grains { ids: whole32(from.words()?)?, ..Grains::default() };
+        let mut grains = Grains { ids: from.half_words()?, ..Grains::default() };
         (grains.positions, grains.velocities, grains.spins) = (from.rows()?, from.rows()?, from.rows()?);
         let reference = from.rows()?;
         let count = grains.len();
@@ -272,7 +276,7 @@ impl<C: ContactLaw> Engine<C> {
         engine.ledger.impulse = [sum()?, sum()?, sum()?];
         engine.ledger.bounds = [sum()?, sum()?, sum()?];
         for range in cut(count) {
-            let starts = whole32(from.words()?)?;
+            let starts = from.half_words()?;
             let pairs = from.words()?.into_iter().map(|w| Pair { i: w as u32, j: (w >> 32) as u32 }).collect();
             let springs = from.rows()?;
             let touching = from.words()?.into_iter().map(|b| b as u8).collect();

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::grains::{CHECKPOINT, is_frame, is_partial};
+use super::grains::{CHECKPOINT, MOTION, is_frame, is_partial};
 use super::run::read_summary;
 use super::{comparison, study};
 use crate::result::Status;
@@ -19,6 +19,7 @@ pub(super) const OURS: &[&str] = &[
     FIGURES,
     CHECKPOINT,
     "grains.csv",
+    MOTION,
     "section.csv",
     "section.vts",
 ];

@@ -1,7 +1,8 @@
 //! A page of tables and figures that is not that of a run: the same style, the same escaping.
 
 use super::Figure;
-use super::report::{figures, head, pairs, typeset};
+use super::report::{figures, pairs, typeset};
+use super::shell::{foot, head};
 use super::svg::escape;
 
 /// What a page shows, from top to bottom.
@@ -75,7 +76,7 @@ pub fn document_html(page: &Document<'_>) -> String {
             }
         };
     }
-    html + "</main></body></html>\n"
+    html + &foot()
 }
 
 fn table(heading: &str, lead: &str, head: &[String], rows: &[Vec<Cell>]) -> String {
@@ -105,6 +106,7 @@ fn table(heading: &str, lead: &str, head: &[String], rows: &[Vec<Cell>]) -> Stri
 
 #[cfg(test)]
 mod tests {
+    use super::super::shell::tests::has_one_script;
     use super::*;
 
     #[test]
@@ -122,7 +124,8 @@ mod tests {
             Section::Facts(vec![("Origin", vec![("file".into(), hostile.into())])]),
         ];
         let html = document_html(&Document { title: hostile, subtitle: hostile, sections: &sections });
-        assert!(!html.contains("<script") && html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"));
+        has_one_script(&html);
+        assert!(!html.contains("<script>alert") && html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"));
         assert!(html.contains("title=\"-3.14159e-5\">−3.1 × 10<sup>−5</sup>&nbsp;m²/s</td>"), "{html}");
         assert!(html.contains("<td title=\"not reported\">–</td>"));
         assert_eq!(html.matches("class=\"alert warn\"").count(), 1);

@@ -11,7 +11,7 @@ const COLOURS: [[f64; 3]; 4] = [[68.0, 58.0, 120.0], [49.0, 122.0, 142.0], [94.0
 /// Width of the picture [px].
 const WIDTH: f64 = 720.0;
 /// A bed longer than so many of its heights is drawn from its beginning to there.
-const LONGEST: f64 = 12.0;
+pub(super) const LONGEST: f64 = 12.0;
 
 /// The picture from the columns x_m, z_m, radius_m, u_particle_m_s; none if there is nothing to draw.
 #[must_use]
@@ -86,6 +86,12 @@ pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64), note:
         readable(fast, "m/s")
     );
     svg
+}
+
+/// The colours from slow to fast, for the script that plays a film.
+pub(super) fn colours() -> String {
+    let last = COLOURS.len() - 1;
+    (0..=last).map(|i| colour(i as f64 / last as f64)).collect::<Vec<_>>().join(" ")
 }
 
 /// Colour of a share of the largest velocity.

@@ -1,14 +1,16 @@
 //! The page of a run: numbers first, then what to doubt, the figures, the equations and the origin. One file, no
-//! network, no scripts; light and dark as the reader has it.
+//! network, nothing that needs its script; light and dark as the reader has it.
 
 use std::fmt::Write as _;
 
 use crate::result::quantity::{self, RESULTS};
-use crate::result::{Reported, Status, Summary};
+use crate::result::{Motion, Reported, Status, Summary};
 use crate::units::{readable, readable_mean, significant};
 
+use super::Figure;
+use super::motion::motion_html;
+use super::shell::{foot, head};
 use super::svg::{escape, svg};
-use super::{Figure, theme};
 
 /// What the page shows.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +21,8 @@ pub struct Page<'a> {
     pub figures: &'a [Figure],
     /// a picture as SVG with its caption, if there is one
     pub picture: Option<(&'a str, &'a str)>,
+    /// the film of its grains, which takes the place of the picture where it can be played
+    pub motion: Option<&'a Motion>,
     /// the equations solved, as text with line breaks
     pub equations: &'a str,
     /// the resolved case
@@ -60,6 +64,7 @@ pub fn report_html(page: &Page<'_>) -> String {
             escape(caption)
         );
     }
+    html += &page.motion.map(motion_html).unwrap_or_default();
     for note in page.notes {
         html += &format!("<p class=\"note\">{}</p>\n", escape(note));
     }
@@ -71,27 +76,10 @@ pub fn report_html(page: &Page<'_>) -> String {
     }
     html += &origin(summary);
     html += &format!(
-        "<details><summary>Resolved case, every default filled in</summary><pre>{}</pre></details>\n</main></body></html>\n",
+        "<details><summary>Resolved case, every default filled in</summary><pre>{}</pre></details>\n",
         escape(page.case_toml.trim_end())
     );
-    html
-}
-
-/// Everything before the content: title, style in light and dark. `version` of bedload made it.
-pub(super) fn head(title: &str, version: &str) -> String {
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
-         <meta name=\"color-scheme\" content=\"light dark\"><meta name=\"generator\" content=\"bedload {}\">\
-         <title>{} · bedload</title>\n<style>:root{{{}}}\n@media(prefers-color-scheme:dark){{:root{{{}}}}}\n\
-         @media print{{:root{{{}}}}}\n{}</style></head>\n<body><main>\n",
-        escape(version),
-        escape(title),
-        theme::variables(false),
-        theme::variables(true),
-        theme::variables(false),
-        include_str!("report.css"),
-    )
+    html + &foot()
 }
 
 /// What went wrong, before everything else, and whether a state was drawn nevertheless.
@@ -292,6 +280,7 @@ fn subscripts(symbol: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::shell::tests::has_one_script;
     use super::super::{profile_figures, trials};
     use super::*;
 
@@ -315,6 +304,7 @@ mod tests {
             summary: &summary,
             figures: &figures,
             picture: None,
+            motion: None,
             equations: "τ = η du/dz",
             case_toml: toml,
             notes: &[],
@@ -333,10 +323,8 @@ mod tests {
         assert!(places.is_sorted(), "{places:?}");
         assert!(html.contains("transport_rate_m2_s = 3.3103e-5") && html.contains("33.10&nbsp;mm²/s"));
         assert!(html.contains("the phases move together"));
-        assert!(
-            !html.contains("http://")
-                || html.matches("http").count() == html.matches("http://www.w3.org/2000/svg").count()
-        );
+        assert_eq!(html.matches("http://").count(), html.matches("http://www.w3.org/2000/svg").count());
+        assert!(!html.contains("https:"));
     }
 
     #[test]
@@ -348,11 +336,13 @@ mod tests {
             summary: &summary,
             figures: &figures,
             picture: None,
+            motion: None,
             equations: hostile,
             case_toml: hostile,
             notes: &[hostile.into()],
         });
-        assert!(!html.contains("<script") && !html.contains("<img") && !html.contains("</title><script"));
+        has_one_script(&html);
+        assert!(!html.contains("<script>alert") && !html.contains("<img"));
         assert!(html.contains("&lt;script&gt;"));
         let alert = html.find("no-static-bed").unwrap();
         assert!(alert < html.find("<h2>Results").unwrap());

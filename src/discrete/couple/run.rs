@@ -10,10 +10,11 @@ use crate::case::grain_tables::Bottom;
 use crate::closures::fluctuation::Fluctuation;
 use crate::column::ColumnError;
 use crate::discrete::average::Averages;
-use crate::discrete::bed::{refused, threads, unwritable};
+use crate::discrete::bed::{keep_pictures, refused, threads, unwritable};
 use crate::discrete::checkpoint::{CheckpointError, Reader, Saved, Writer};
 use crate::discrete::deposit::{CHECKPOINT, Deposit, Stage, deposit};
 use crate::discrete::engine::Engine;
+use crate::discrete::film::Film;
 use crate::discrete::grains::{Grain, Point};
 use crate::discrete::impact::{contact_equations, law};
 use crate::discrete::law::LinearSpring;
@@ -35,6 +36,7 @@ pub(super) struct Run<'a> {
     pub exchange: Exchange,
     pub averages: Averages,
     pub record: Record,
+    pub film: Film,
     /// steps of the grains in a period; periods in a sample and in the whole run, and those made
     pub steps: u64,
     pub sampled: u64,
@@ -121,8 +123,7 @@ fn go_on(mut run: Run<'_>, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
         }
     };
     let outcome = outcome::outcome(&mut run, status)?;
-    let mut side = || picture::side_view(run.engine.grains()).into_bytes();
-    watch.keep("grains.csv", true, &mut side).map_err(|error| unwritable(&error))?;
+    keep_pictures(run.engine.grains(), &run.film, watch)?;
     Ok(outcome)
 }
 
@@ -178,10 +179,12 @@ impl<'a> Run<'a> {
         let area = bed.size[0] * bed.size[1];
         let shape = [0.0, exchange.cell_height(), area * exchange.cell_height(), bed.rho_p];
         let sampled = (flow.sample_period / flow.coupling_period).round().max(1.0) as u64;
+        let film = Film::new(bed, engine.grains(), flow.coupling_period);
         Ok(Self {
             flow,
             engine,
             exchange,
+            film,
             averages: Averages::empty(cells, BLOCKS, shape),
             record: Record::new(cells),
             steps: steps as u64,
@@ -213,6 +216,9 @@ impl<'a> Run<'a> {
             let sample = self.made.is_multiple_of(self.sampled);
             if sample {
                 self.sample();
+            }
+            if self.film.is_due(self.made) {
+                self.film.see(self.engine.grains(), self.time());
             }
             if frames > 0 && self.made.is_multiple_of((self.periods / frames).max(1)) {
                 let number = self.made / (self.periods / frames).max(1);
@@ -311,6 +317,7 @@ impl<'a> Run<'a> {
         self.exchange.save(&mut to);
         self.averages.save(&mut to);
         self.record.write(&mut to);
+        self.film.save(&mut to);
         to.seal(&name(self.flow))
     }
 
@@ -331,7 +338,8 @@ impl<'a> Run<'a> {
         let mut averages = Averages::empty(cells, BLOCKS, [0.0; 4]);
         averages.fill(from)?;
         let record = Record::read(from, cells)?;
-        Ok(Self { flow, engine, exchange, averages, record, steps, sampled, periods, made, turn, draws, rates })
+        let film = Film::restore(from, engine.grains().len())?;
+        Ok(Self { flow, engine, exchange, averages, record, film, steps, sampled, periods, made, turn, draws, rates })
     }
 }
 

@@ -1,0 +1,131 @@
+// Plays the film of the grains on its canvas, over and over.
+(() => {
+"use strict";
+const RATE = 25; // pictures a second
+const TALLEST = 440; // pixels
+
+/** The colour of a share of the largest velocity. */
+function shades(colours) {
+  const stops = colours.split(" ").map(c => [1, 3, 5].map(i => parseInt(c.slice(i, i + 2), 16)));
+  return Array.from({ length: 64 }, (_, n) => {
+    const at = n / 63 * (stops.length - 1);
+    const i = Math.min(Math.floor(at), stops.length - 2);
+    return `rgb(${stops[i].map((c, k) => Math.round(c + (at - i) * (stops[i + 1][k] - c))).join(" ")})`;
+  });
+}
+
+class Film {
+  constructor(figure) {
+    this.canvas = figure.querySelector("canvas");
+    const d = this.canvas.dataset;
+    for (const name of ["begin", "interval", "pictures", "grains", "radius", "length", "bottom", "top", "longest"]) this[name] = Number(d[name]);
+    const bytes = Uint8Array.from(atob(d.places), c => c.charCodeAt(0));
+    this.places = new Uint16Array(bytes.buffer);
+    this.shades = shades(d.colours);
+    this.measure();
+    [this.button, this.slider, this.clock] = ["button", "input", "output"].map(name => figure.querySelector(name));
+    this.at = 0;
+    this.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    figure.hidden = false;
+    const still = document.getElementById("picture");
+    if (still) still.hidden = true;
+    this.button.addEventListener("click", () => this.play(!this.playing));
+    this.slider.addEventListener("input", () => { this.play(false); this.at = Number(this.slider.value); this.draw(); });
+    addEventListener("resize", () => this.draw());
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
+    this.play(this.playing);
+    this.draw();
+  }
+
+  x(picture, grain) { return this.places[2 * (picture * this.grains + grain)] / 65536 * this.length; }
+  z(picture, grain) { return this.bottom + this.places[2 * (picture * this.grains + grain) + 1] / 65535 * (this.top - this.bottom); }
+
+  /** Way along the flow to the next picture; the length is a period. */
+  way(picture, grain) {
+    const step = (this.x(picture + 1, grain) - this.x(picture, grain)) / this.length;
+    return (step - Math.round(step)) * this.length;
+  }
+
+  /** The part that is shown, and the velocities at the ends of the colours. */
+  measure() {
+    const [speeds, heights] = [[], []];
+    for (let p = 0; p < this.pictures; p++) for (let g = 0; g < this.grains; g++) {
+      heights.push(this.z(p, g));
+      if (p + 1 < this.pictures) speeds.push(this.way(p, g) / this.interval);
+    }
+    speeds.sort((a, b) => a - b);
+    heights.sort((a, b) => a - b);
+    this.slow = Math.min(0, speeds[Math.floor(0.002 * speeds.length)]);
+    this.fast = speeds[Math.floor(0.998 * (speeds.length - 1))];
+    this.low = heights[0] - this.radius;
+    this.high = heights[heights.length - 1] + this.radius;
+    this.width = Math.min(this.length, this.longest * (this.high - this.low));
+  }
+
+  play(on) {
+    this.playing = on;
+    this.button.textContent = on ? "Pause" : "Play";
+    if (on) requestAnimationFrame(now => { this.last = now; this.go(now); });
+  }
+
+  go(now) {
+    if (!this.playing) return;
+    this.at = (this.at + (now - this.last) / 1000 * RATE) % (this.pictures - 1);
+    this.last = now;
+    this.draw();
+    requestAnimationFrame(next => this.go(next));
+  }
+
+  draw() {
+    const style = getComputedStyle(this.canvas);
+    const room = this.canvas.parentElement.clientWidth;
+    const scale = Math.min(room / this.width, TALLEST / (this.high - this.low));
+    const [width, height, below] = [scale * this.width, scale * (this.high - this.low), 26];
+    const dense = devicePixelRatio || 1;
+    this.canvas.width = Math.round(dense * width);
+    this.canvas.height = Math.round(dense * (height + below));
+    this.canvas.style.width = `${width}px`;
+    const to = this.canvas.getContext("2d");
+    to.scale(dense, dense);
+    const [picture, r] = [Math.min(Math.floor(this.at), this.pictures - 2), scale * this.radius];
+    const part = this.at - picture;
+    to.save();
+    to.beginPath();
+    to.rect(0, 0, width, height);
+    to.clip();
+    to.strokeStyle = style.getPropertyValue("--paper");
+    to.lineWidth = Math.max(0.6, 0.12 * r);
+    for (let g = 0; g < this.grains; g++) {
+      const way = this.way(picture, g);
+      const x = this.x(picture, g) + part * way;
+      const z = (1 - part) * this.z(picture, g) + part * this.z(picture + 1, g);
+      const share = (way / this.interval - this.slow) / (this.fast - this.slow || 1);
+      to.fillStyle = this.shades[Math.round(63 * Math.min(1, Math.max(0, share)))];
+      // What leaves at one end of the period comes in at the other.
+      for (const shift of [0, -this.length, this.length]) {
+        const left = scale * (x + shift);
+        if (left < -r || left > width + r) continue;
+        to.beginPath();
+        to.arc(left, scale * (this.high - z), r, 0, 2 * Math.PI);
+        to.fill();
+        to.stroke();
+      }
+    }
+    to.restore();
+    const bar = Math.min(160, 0.3 * width);
+    for (let i = 0; i < 64; i++) {
+      to.fillStyle = this.shades[i];
+      to.fillRect(i / 64 * bar, height + 10, bar / 64 + 0.5, 8);
+    }
+    to.fillStyle = style.getPropertyValue("--ink");
+    to.font = "12px system-ui, sans-serif";
+    const velocity = u => `${u.toPrecision(2)} m/s`.replace("-", "−").replace(/^−?0\.0 /, "0 ");
+    to.fillText(`${velocity(this.slow)} to ${velocity(this.fast)}`, bar + 8, height + 18);
+    this.slider.value = this.at;
+    const slower = 1 / (RATE * this.interval);
+    this.clock.textContent = `t = ${(this.begin + this.at * this.interval).toFixed(3)} s, ${slower.toPrecision(2)} × slower than in nature`;
+  }
+}
+
+for (const figure of document.querySelectorAll("figure#motion")) new Film(figure);
+})();
