@@ -79,15 +79,24 @@ pub fn document_html(page: &Document<'_>) -> String {
     html + &foot()
 }
 
+/// Texts of fewer characters stay on one line.
+const SHORT: usize = 32;
+
 fn table(heading: &str, lead: &str, head: &[String], rows: &[Vec<Cell>]) -> String {
-    let numeric = |i: usize| rows.iter().any(|row| matches!(row.get(i), Some(Cell::Number { .. })));
-    let class = |i: usize| if numeric(i) { " class=\"num\"" } else { "" };
-    let heads: String = head.iter().enumerate().map(|(i, h)| format!("<th{}>{}</th>", class(i), escape(h))).collect();
+    let any = |i: usize, is: fn(&Cell) -> bool| rows.iter().filter_map(|row| row.get(i)).any(is);
+    let numeric = |i| any(i, |cell| matches!(cell, Cell::Number { .. })) || !any(i, |c| matches!(c, Cell::Text(_)));
+    let said = |i| rows.is_empty() || any(i, |cell| !matches!(cell, Cell::Text(text) if text.is_empty()));
+    let class = |i| if numeric(i) { " class=\"num\"" } else { "" };
+    let named = head.iter().enumerate().filter(|(i, _)| said(*i));
+    let heads: String = named.map(|(i, name)| format!("<th{}>{}</th>", class(i), escape(name))).collect();
     let mut body = String::new();
     for row in rows {
         body += "<tr>";
-        for (i, cell) in row.iter().enumerate() {
+        for (i, cell) in row.iter().enumerate().filter(|(i, _)| said(*i)) {
             body += &match cell {
+                Cell::Text(text) if !numeric(i) && text.chars().count() < SHORT => {
+                    format!("<td class=\"short\">{}</td>", escape(text))
+                }
                 Cell::Text(text) => format!("<td{}>{}</td>", class(i), escape(text)),
                 Cell::Number { shown, full } => {
                     format!("<td{} title=\"{}\">{}</td>", class(i), escape(full), typeset(shown))

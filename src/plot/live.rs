@@ -11,7 +11,7 @@ use super::theme::Part;
 use super::{Axis, Curve, Figure, Panel, Scale};
 
 /// A line without markers is given by the points that it needs to stay within this of all of them [units of the figure].
-const TOLERANCE: f64 = 0.04;
+const TOLERANCE: f64 = 0.003;
 
 /// One invisible rectangle a panel. Figures over the elevation are linked: they have `data-link` in common.
 pub(super) fn panes(figure: &Figure, layout: &Layout) -> String {

@@ -48,17 +48,18 @@ class Film {
 
   /** The part that is shown, and the velocities at the ends of the colours. */
   measure() {
-    const [speeds, heights] = [[], []];
+    const speeds = new Float64Array((this.pictures - 1) * this.grains);
+    let [low, high] = [Infinity, -Infinity];
     for (let p = 0; p < this.pictures; p++) for (let g = 0; g < this.grains; g++) {
-      heights.push(this.z(p, g));
-      if (p + 1 < this.pictures) speeds.push(this.way(p, g) / this.interval);
+      const z = this.z(p, g);
+      [low, high] = [Math.min(low, z), Math.max(high, z)];
+      if (p + 1 < this.pictures) speeds[p * this.grains + g] = this.way(p, g) / this.interval;
     }
-    speeds.sort((a, b) => a - b);
-    heights.sort((a, b) => a - b);
+    speeds.sort();
     this.slow = Math.min(0, speeds[Math.floor(0.002 * speeds.length)]);
     this.fast = speeds[Math.floor(0.998 * (speeds.length - 1))];
-    this.low = heights[0] - this.radius;
-    this.high = heights[heights.length - 1] + this.radius;
+    this.low = low - this.radius;
+    this.high = high + this.radius;
     this.width = Math.min(this.length, this.longest * (this.high - this.low));
   }
 
@@ -72,7 +73,8 @@ class Film {
     if (!this.playing) return;
     this.at = (this.at + (now - this.last) / 1000 * RATE) % (this.pictures - 1);
     this.last = now;
-    this.draw();
+    const { top, bottom } = this.canvas.getBoundingClientRect();
+    if (bottom > 0 && top < innerHeight) this.draw();
     requestAnimationFrame(next => this.go(next));
   }
 
@@ -119,11 +121,15 @@ class Film {
     }
     to.fillStyle = style.getPropertyValue("--ink");
     to.font = "12px system-ui, sans-serif";
-    const velocity = u => `${u.toPrecision(2)} m/s`.replace("-", "−").replace(/^−?0\.0 /, "0 ");
-    to.fillText(`${velocity(this.slow)} to ${velocity(this.fast)}`, bar + 8, height + 18);
+    const velocity = u => (Math.abs(u) < 0.005 * this.fast ? "0" : u.toPrecision(2)).replace("-", "−");
+    to.fillText(`velocity ${velocity(this.slow)} to ${velocity(this.fast)} m/s`, bar + 8, height + 18);
+    to.textAlign = "right";
+    const whole = this.width < this.length ? ` of the period of ${this.length.toPrecision(3)} m` : "";
+    to.fillText(`length ${this.width.toPrecision(3)} m${whole}`, width, height + 18);
     this.slider.value = this.at;
     const slower = 1 / (RATE * this.interval);
-    this.clock.textContent = `t = ${(this.begin + this.at * this.interval).toFixed(3)} s, ${slower.toPrecision(2)} × slower than in nature`;
+    const pace = slower < 1 ? `${(1 / slower).toPrecision(2)} times faster` : `${slower.toPrecision(2)} times slower`;
+    this.clock.textContent = `t = ${(this.begin + this.at * this.interval).toFixed(3)} s, ${pace} than in nature`;
   }
 }
 

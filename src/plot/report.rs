@@ -57,6 +57,7 @@ pub fn report_html(page: &Page<'_>) -> String {
     html += &results(summary);
     html += &balances(summary);
     html += &validity(summary);
+    html += &page.motion.map(motion_html).unwrap_or_default();
     html += &figures(page.figures);
     if let Some((picture, caption)) = page.picture {
         html += &format!(
@@ -64,7 +65,6 @@ pub fn report_html(page: &Page<'_>) -> String {
             escape(caption)
         );
     }
-    html += &page.motion.map(motion_html).unwrap_or_default();
     for note in page.notes {
         html += &format!("<p class=\"note\">{}</p>\n", escape(note));
     }
@@ -152,7 +152,16 @@ fn value(reported: &Reported, unit: &'static str) -> String {
     let Some(value) = reported.value else {
         return format!("<span class=\"none\">– {}</span>", escape(reported.reason.as_deref().unwrap_or("undefined")));
     };
-    typeset(&reported.stderr.map_or_else(|| readable(value, unit), |error| readable_mean(value, error, unit)))
+    typeset(&match reported.stderr {
+        Some(error) => readable_mean(value, error, unit),
+        None if unit == "1" && is_count(value) => format!("{value}"),
+        None => readable(value, unit),
+    })
+}
+
+/// Whether a number is whole, as those of grains and iterations are: it has no digits after the point to show.
+fn is_count(x: f64) -> bool {
+    x.fract() == 0.0 && (1.0..1e15).contains(&x)
 }
 
 /// `u_max_m_s = 0.31234567`.

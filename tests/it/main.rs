@@ -16,6 +16,7 @@ mod interruption;
 mod kinetic;
 mod mutate;
 mod never_panics;
+mod page;
 mod paths;
 mod report;
 mod schema;
