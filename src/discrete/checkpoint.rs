@@ -66,9 +66,14 @@ impl Writer {
         self.whole(rows.len() as u64);
         rows.iter().flat_map(|row| row.0).for_each(|x| self.number(x));
     }
-    pub(super) fn words(&mut self, words: impl ExactSizeIterator<Item = u64>) {
+    fn words(&mut self, words: impl ExactSizeIterator<Item = u64>) {
         self.whole(words.len() as u64);
         words.for_each(|word| self.whole(word));
+    }
+    /// Words of 4 bytes.
+    pub(super) fn half_words(&mut self, words: &[u32]) {
+        self.whole(words.len() as u64);
+        words.iter().for_each(|word| self.0.extend_from_slice(&word.to_le_bytes()));
     }
     /// The checkpoint of the case with the name `case`.
     #[must_use]
@@ -158,9 +163,12 @@ impl<'a> Reader<'a> {
         let count = self.count()?;
         (0..count).map(|_| self.whole()).collect()
     }
-    /// Words that are as short as an index.
+    /// Words of 4 bytes.
     pub(super) fn half_words(&mut self) -> Read<Vec<u32>> {
-        whole32(self.words()?)
+        let count = usize::try_from(self.whole()?).ok().and_then(|count| count.checked_mul(4)).ok_or(SHORT)?;
+        let (words, rest) = self.0.split_at_checked(count).ok_or(SHORT)?;
+        self.0 = rest;
+        Ok(words.chunks_exact(4).map(|b| b.iter().rev().fold(0, |word, &b| word << 8 | u32::from(b))).collect())
     }
     /// Nothing may be left.
     ///
@@ -253,7 +261,7 @@ impl<C: ContactLaw> Engine<C> {
         let gravity = [from.number()?, from.number()?, from.number()?];
         let settings =
             Settings { dt, gravity, skin: from.number()?, largest_overlap: from.number()?, lowest: from.number()? };
-        let mut grains = Grains { ids: from.half_words()?, ..Grains::default() };
+        let mut grains = Grains { ids: whole32(from.words()?)?, ..Grains::default() };
         (grains.positions, grains.velocities, grains.spins) = (from.rows()?, from.rows()?, from.rows()?);
         let reference = from.rows()?;
         let count = grains.len();
@@ -276,7 +284,7 @@ impl<C: ContactLaw> Engine<C> {
         engine.ledger.impulse = [sum()?, sum()?, sum()?];
         engine.ledger.bounds = [sum()?, sum()?, sum()?];
         for range in cut(count) {
-            let starts = from.half_words()?;
+            let starts = whole32(from.words()?)?;
             let pairs = from.words()?.into_iter().map(|w| Pair { i: w as u32, j: (w >> 32) as u32 }).collect();
             let springs = from.rows()?;
             let touching = from.words()?.into_iter().map(|b| b as u8).collect();

@@ -7,11 +7,10 @@ use crate::result::{Motion, base64};
 
 /// Time between two pictures over the time in which a grain falls its diameter: what moves does not jump.
 const INTERVAL: f64 = 0.25;
-/// Most and fewest pictures of a take.
+/// Most pictures of a take.
 const MOST: usize = 120;
-const FEWEST: usize = 24;
-/// Places of grains in a take, of which a large bed uses up more in fewer pictures: 4 bytes each.
-const PLACES: usize = 180_000;
+/// Most places of grains in a take, 4 bytes each; a large bed has fewer pictures.
+const PLACES: usize = 480_000;
 /// Most grains; the nearest to the viewer stay.
 const GRAINS: usize = 10_000;
 
@@ -76,7 +75,7 @@ impl Film {
             let up = (((z - low) / (high - low)).clamp(0.0, 1.0) * 65535.0) as u32;
             self.now.places.push(up << 16 | along);
         }
-        let wanted = (PLACES / self.now.ids.len().max(1)).clamp(FEWEST, MOST);
+        let wanted = (PLACES / self.now.ids.len().max(1)).min(MOST);
         if self.now.pictures() >= wanted {
             self.full = std::mem::take(&mut self.now);
         }
@@ -109,8 +108,8 @@ impl Film {
         }
         for take in [&self.now, &self.full] {
             to.number(take.begin);
-            to.words(take.ids.iter().map(|&id| u64::from(id)));
-            to.words(take.places.iter().map(|&place| u64::from(place)));
+            to.half_words(&take.ids);
+            to.half_words(&take.places);
         }
     }
 

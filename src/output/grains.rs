@@ -4,7 +4,7 @@ use std::fs;
 use std::io::BufReader;
 use std::path::Path;
 
-use super::folder::{Folder, OutputError, PROBE, entries, write_whole};
+use super::folder::{Folder, OutputError, entries, write_whole};
 use crate::result::Motion;
 
 /// State from which a run of grains goes on.
@@ -18,6 +18,9 @@ pub(super) fn read_motion(place: &Path) -> Option<Motion> {
     let file = fs::File::open(place.join(MOTION)).ok()?;
     serde_json::from_reader(BufReader::new(file)).ok().filter(Motion::is_sound)
 }
+
+/// Written and removed to see whether files can be made.
+pub(super) const PROBE: &str = ".probe";
 
 /// What a run that was killed may leave behind.
 pub(super) fn is_partial(name: &str) -> bool {

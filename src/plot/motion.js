@@ -56,8 +56,11 @@ class Film {
       if (p + 1 < this.pictures) speeds[p * this.grains + g] = this.way(p, g) / this.interval;
     }
     speeds.sort();
-    this.slow = Math.min(0, speeds[Math.floor(0.002 * speeds.length)]);
-    this.fast = speeds[Math.floor(0.998 * (speeds.length - 1))];
+    // Slower than this is the rounding of the places.
+    const least = 20 * this.length / 65536 / this.interval;
+    const slow = speeds[Math.floor(0.002 * speeds.length)];
+    this.slow = slow < -least ? slow : 0;
+    this.fast = Math.max(least, speeds[Math.floor(0.998 * (speeds.length - 1))]);
     this.low = low - this.radius;
     this.high = high + this.radius;
     this.width = Math.min(this.length, this.longest * (this.high - this.low));

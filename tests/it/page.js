@@ -3,7 +3,7 @@
 "use strict";
 const all = (selector, root = document) => [...root.querySelectorAll(selector)];
 const root = document.documentElement;
-const frame = () => new Promise(done => setTimeout(done, 100));
+const frame = () => new Promise(done => setTimeout(() => requestAnimationFrame(done), 50));
 
 function hover(svg, panel, across, up) {
   const box = all("rect.pane", svg)[panel].getBoundingClientRect();
@@ -40,7 +40,7 @@ async function film(figure) {
   };
   figure.scrollIntoView();
   const begin = clock.textContent;
-  await frame();
+  for (let i = 0; i < 50 && clock.textContent === begin; i++) await frame();
   const later = clock.textContent;
   button.click();
   const said = button.textContent;
