@@ -136,7 +136,15 @@ mod tests {
         has_one_script(&html);
         assert!(!html.contains("<script>alert") && html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"));
         assert!(html.contains("title=\"-3.14159e-5\">−3.1 × 10<sup>−5</sup>&nbsp;m²/s</td>"), "{html}");
-        assert!(html.contains("<td title=\"not reported\">–</td>"));
+        assert!(html.contains("<td class=\"num\" title=\"not reported\">–</td>"));
         assert_eq!(html.matches("class=\"alert warn\"").count(), 1);
+    }
+
+    #[test]
+    fn a_column_that_says_nothing_is_left_out_and_short_texts_stay_on_one_line() {
+        let row = |text: &str| vec![Cell::Text(String::new()), Cell::Text(text.into())];
+        let html = table("t", "", &["series".into(), "what".into()], &[row("done"), row(&"long ".repeat(9))]);
+        assert!(!html.contains("series") && html.contains("<td class=\"short\">done</td>"), "{html}");
+        assert!(html.contains("<td>long long"));
     }
 }
