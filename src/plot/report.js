@@ -125,12 +125,17 @@ class Plot {
     element(this.readout, "p", `${first.y.title} = ${shown(value, first.y.unit)}`);
     const { width } = this.svg.viewBox.baseVal;
     const [box, outer] = [this.svg.getBoundingClientRect(), this.frame.getBoundingClientRect()];
+    // Where the panels are too narrow for their values, these stand in rows of their own.
+    const narrow = this.panes.some(pane => box.width * (pane.right - pane.left) / width < 110);
+    this.readout.classList.toggle("narrow", narrow);
     let height = 0;
     for (const pane of this.panes) {
       line(this.live, pane.left, y, pane.right, y);
       const column = element(this.readout, "div", "", "column");
-      column.style.left = `${box.left - outer.left + box.width * pane.left / width}px`;
-      column.style.width = `${box.width * (pane.right - pane.left) / width}px`;
+      if (!narrow) {
+        column.style.left = `${box.left - outer.left + box.width * pane.left / width}px`;
+        column.style.width = `${box.width * (pane.right - pane.left) / width}px`;
+      }
       element(column, "i", pane.x.title);
       for (const curve of this.visible(pane)) {
         const x = crossing(curve, y);
@@ -139,7 +144,7 @@ class Plot {
       }
       height = Math.max(height, column.offsetTop + column.offsetHeight);
     }
-    Object.assign(this.readout.style, { top: `${box.bottom - outer.top}px`, height: `${height + 6}px` });
+    Object.assign(this.readout.style, { top: `${box.bottom - outer.top}px`, height: narrow ? "auto" : `${height + 6}px` });
   }
 
   /** The point of a curve that is nearest to the pointer, or the place of the pointer itself. */
