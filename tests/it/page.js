@@ -3,7 +3,7 @@
 "use strict";
 const all = (selector, root = document) => [...root.querySelectorAll(selector)];
 const root = document.documentElement;
-const frame = () => new Promise(done => setTimeout(() => requestAnimationFrame(done), 50));
+const frame = () => new Promise(done => setTimeout(done, 50));
 
 function hover(svg, panel, across, up) {
   const box = all("rect.pane", svg)[panel].getBoundingClientRect();
