@@ -26,6 +26,7 @@ pub struct Film {
     interval: f64,
     radius: f64,
     length: f64,
+    shown: f64,
     /// elevations that can be shown [m]
     heights: [f64; 2],
     now: Take,
@@ -51,9 +52,10 @@ impl Film {
         let (low, high) = ends.fold((0.0_f64, 0.0_f64), |(low, high), z| (low.min(z), high.max(z)));
         let heights = [low - bed.d, high + 2.0 * (high - low) + 20.0 * bed.d];
         let (radius, length) = (0.5 * bed.d, bed.size[0]);
+        let shown = length.min(Motion::LONGEST * (high - low + bed.d));
         let every = (INTERVAL * (bed.d / bed.g).sqrt() / step).round().max(1.0) as u64;
         let (now, full) = (Take::default(), Take::default());
-        Self { every, interval: every as f64 * step, radius, length, heights, now, full }
+        Self { every, interval: every as f64 * step, radius, length, shown, heights, now, full }
     }
 
     /// Whether there is to be a picture after so many steps.
@@ -65,7 +67,7 @@ impl Film {
     /// Takes a picture at the time `time` [s].
     pub fn see(&mut self, grains: &Grains, time: f64) {
         if self.now.ids.is_empty() {
-            self.now = Take { begin: time, ids: nearest(grains), places: Vec::new() };
+            self.now = Take { begin: time, ids: self.nearest(grains), places: Vec::new() };
         }
         let places = grains.places();
         let [low, high] = self.heights;
@@ -81,6 +83,22 @@ impl Film {
         }
     }
 
+    /// Grains of one slice along the flow, two diameters deep across it, the farthest first: those in the part that is
+    /// shown, and those beside it that may get there.
+    fn nearest(&self, grains: &Grains) -> Vec<u32> {
+        let front = (0..grains.len()).map(|i| grains.position(i)[1]).fold(f64::INFINITY, f64::min);
+        let depth = front + 4.0 * grains.largest_radius();
+        let is_seen = |&i: &usize| {
+            let [x, y, _] = grains.position(i);
+            let x = x.rem_euclid(self.length);
+            y <= depth && (x < 2.0 * self.shown || x > self.length - self.shown)
+        };
+        let mut seen: Vec<usize> = grains.places().into_iter().filter(is_seen).collect();
+        seen.sort_by(|&a, &b| grains.position(b)[1].total_cmp(&grains.position(a)[1]));
+        seen.drain(..seen.len().saturating_sub(GRAINS));
+        seen.into_iter().map(|i| grains.ids[i]).collect()
+    }
+
     /// The last full take as the content of [`FILE`], or the first one as far as it is; none of fewer than two pictures.
     #[must_use]
     pub fn file(&self) -> Option<Vec<u8>> {
@@ -93,6 +111,7 @@ impl Film {
             grains: take.ids.len(),
             radius_m: self.radius,
             length_m: self.length,
+            shown_m: self.shown,
             bottom_m: self.heights[0],
             top_m: self.heights[1],
             places: base64(take.places.iter().flat_map(|place| place.to_le_bytes())),
@@ -103,7 +122,7 @@ impl Film {
     /// Writes it into a checkpoint.
     pub fn save(&self, to: &mut Writer) {
         to.whole(self.every);
-        for x in [self.interval, self.radius, self.length, self.heights[0], self.heights[1]] {
+        for x in [self.interval, self.radius, self.length, self.shown, self.heights[0], self.heights[1]] {
             to.number(x);
         }
         for take in [&self.now, &self.full] {
@@ -123,7 +142,8 @@ impl Film {
             return Err(CheckpointError::Corrupt { what: "the film" });
         }
         let mut number = || from.number();
-        let (interval, radius, length, heights) = (number()?, number()?, number()?, [number()?, number()?]);
+        let (interval, radius, length, shown) = (number()?, number()?, number()?, number()?);
+        let heights = [number()?, number()?];
         let mut take = || -> Result<Take, CheckpointError> {
             let (begin, ids, places) = (from.number()?, from.half_words()?, from.half_words()?);
             let whole =
@@ -133,7 +153,7 @@ impl Film {
             }
             Ok(Take { begin, ids, places })
         };
-        Ok(Self { every, interval, radius, length, heights, now: take()?, full: take()? })
+        Ok(Self { every, interval, radius, length, shown, heights, now: take()?, full: take()? })
     }
 }
 
@@ -143,16 +163,6 @@ impl Take {
     }
 }
 
-/// Grains of one slice along the flow, two diameters deep across it, the farthest first.
-fn nearest(grains: &Grains) -> Vec<u32> {
-    let front = (0..grains.len()).map(|i| grains.position(i)[1]).fold(f64::INFINITY, f64::min);
-    let depth = front + 4.0 * grains.largest_radius();
-    let mut seen: Vec<usize> = grains.places().into_iter().filter(|&i| grains.position(i)[1] <= depth).collect();
-    seen.sort_by(|&a, &b| grains.position(b)[1].total_cmp(&grains.position(a)[1]));
-    seen.drain(..seen.len().saturating_sub(GRAINS));
-    seen.into_iter().map(|i| grains.ids[i]).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -160,7 +170,7 @@ mod tests {
 
     fn film() -> Film {
         let (now, full) = (Take::default(), Take::default());
-        Film { every: 1, interval: 0.01, radius: 0.1, length: 2.0, heights: [0.0, 10.0], now, full }
+        Film { every: 1, interval: 0.01, radius: 0.1, length: 2.0, shown: 2.0, heights: [0.0, 10.0], now, full }
     }
 
     /// Three grains, the last behind the others, moved by `x` along the flow.
@@ -186,6 +196,15 @@ mod tests {
         }
         let motion: Motion = serde_json::from_slice(&film.file().unwrap()).unwrap();
         assert_eq!((motion.pictures, motion.grains, motion.begin_s), (MOST, 2, 120.0));
+    }
+
+    #[test]
+    fn of_a_long_bed_the_part_that_is_shown_and_what_may_get_there() {
+        let at = |x| Grain::at_rest([x, 0.0, 5.0], 0.1, 1.0);
+        let grains = Grains::new(&[0.5, 1.5, 2.5, 8.5, 9.5, -0.5].map(at));
+        let mut film = Film { length: 10.0, shown: 1.0, ..film() };
+        film.see(&grains, 0.0);
+        assert_eq!(film.now.ids, [0, 1, 4, 5]);
     }
 
     #[test]

@@ -18,7 +18,7 @@ class Film {
   constructor(figure) {
     this.canvas = figure.querySelector("canvas");
     const d = this.canvas.dataset;
-    for (const name of ["begin", "interval", "pictures", "grains", "radius", "length", "bottom", "top", "longest"]) this[name] = Number(d[name]);
+    for (const name of ["begin", "interval", "pictures", "grains", "radius", "length", "shown", "bottom", "top"]) this[name] = Number(d[name]);
     const bytes = Uint8Array.from(atob(d.places), c => c.charCodeAt(0));
     this.places = new Uint16Array(bytes.buffer);
     this.shades = shades(d.colours);
@@ -63,7 +63,6 @@ class Film {
     this.fast = Math.max(least, speeds[Math.floor(0.998 * (speeds.length - 1))]);
     this.low = low - this.radius;
     this.high = high + this.radius;
-    this.width = Math.min(this.length, this.longest * (this.high - this.low));
   }
 
   play(on) {
@@ -84,8 +83,8 @@ class Film {
   draw() {
     const style = getComputedStyle(this.canvas);
     const room = this.canvas.parentElement.clientWidth;
-    const scale = Math.min(room / this.width, TALLEST / (this.high - this.low));
-    const [width, height, below] = [scale * this.width, scale * (this.high - this.low), 26];
+    const scale = Math.min(room / this.shown, TALLEST / (this.high - this.low));
+    const [width, height, below] = [scale * this.shown, scale * (this.high - this.low), 26];
     const dense = devicePixelRatio || 1;
     this.canvas.width = Math.round(dense * width);
     this.canvas.height = Math.round(dense * (height + below));
@@ -127,8 +126,8 @@ class Film {
     const velocity = u => (Math.abs(u) < 0.005 * this.fast ? "0" : u.toPrecision(2)).replace("-", "−");
     to.fillText(`velocity ${velocity(this.slow)} to ${velocity(this.fast)} m/s`, bar + 8, height + 18);
     to.textAlign = "right";
-    const whole = this.width < this.length ? ` of the period of ${this.length.toPrecision(3)} m` : "";
-    to.fillText(`length ${this.width.toPrecision(3)} m${whole}`, width, height + 18);
+    const whole = this.shown < this.length ? ` of the period of ${this.length.toPrecision(3)} m` : "";
+    to.fillText(`length ${this.shown.toPrecision(3)} m${whole}`, width, height + 18);
     this.slider.value = this.at;
     const slower = 1 / (RATE * this.interval);
     const pace = slower < 1 ? `${(1 / slower).toPrecision(2)} times faster` : `${slower.toPrecision(2)} times slower`;

@@ -3,7 +3,7 @@
 use crate::result::Motion;
 use crate::units::significant;
 
-use super::grains::{LONGEST, colours};
+use super::grains::colours;
 use super::svg::escape;
 
 /// The film as a figure that stays hidden where no script plays it.
@@ -19,13 +19,14 @@ pub(super) fn motion_html(motion: &Motion) -> String {
     );
     format!(
         "<figure id=\"motion\" hidden><canvas role=\"img\" aria-label=\"{caption}\" data-begin=\"{begin_s}\" data-interval=\"{interval_s}\" \
-         data-pictures=\"{pictures}\" data-grains=\"{grains}\" data-radius=\"{}\" data-length=\"{}\" data-bottom=\"{}\" data-top=\"{}\" \
-         data-longest=\"{LONGEST}\" data-colours=\"{}\" data-places=\"{}\"></canvas>\
+         data-pictures=\"{pictures}\" data-grains=\"{grains}\" data-radius=\"{}\" data-length=\"{}\" data-shown=\"{}\" data-bottom=\"{}\" data-top=\"{}\" \
+         data-colours=\"{}\" data-places=\"{}\"></canvas>\
          <div class=\"player\"><button type=\"button\">Pause</button>\
          <input type=\"range\" min=\"0\" max=\"{}\" step=\"any\" value=\"0\" aria-label=\"time\"><output></output></div>\
          <figcaption>{caption}</figcaption></figure>\n",
         motion.radius_m,
         motion.length_m,
+        motion.shown_m,
         motion.bottom_m,
         motion.top_m,
         colours(),
@@ -49,6 +50,7 @@ mod tests {
             grains: 2,
             radius_m: 0.003,
             length_m: 0.1,
+            shown_m: 0.1,
             bottom_m: 0.0,
             top_m: 0.2,
             places: base64([255; 24]),

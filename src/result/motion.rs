@@ -20,6 +20,8 @@ pub struct Motion {
     pub radius_m: f64,
     /// period along the flow [m]
     pub length_m: f64,
+    /// the part of it that is shown, from x = 0 [m]; what starts further from it than it is long is left out
+    pub shown_m: f64,
     /// elevation of the smallest z that can be written [m]
     pub bottom_m: f64,
     /// elevation of the largest [m]
@@ -32,11 +34,13 @@ pub struct Motion {
 impl Motion {
     /// Version of the layout.
     pub const FORMAT: u32 = 1;
+    /// A bed longer than so many of its heights is shown from its beginning to there [1].
+    pub const LONGEST: f64 = 12.0;
 
     /// Whether it is of this format, its numbers make sense, and there is a place for each grain in each picture.
     #[must_use]
     pub fn is_sound(&self) -> bool {
-        let positive = [self.interval_s, self.radius_m, self.length_m, self.top_m - self.bottom_m];
+        let positive = [self.interval_s, self.radius_m, self.length_m, self.shown_m, self.top_m - self.bottom_m];
         let bytes = self.pictures.checked_mul(self.grains).and_then(|places| places.checked_mul(4));
         let characters = bytes.and_then(|bytes| bytes.div_ceil(3).checked_mul(4));
         self.format == Self::FORMAT
@@ -97,6 +101,7 @@ mod tests {
             grains: 3,
             radius_m: 0.003,
             length_m: 0.1,
+            shown_m: 0.1,
             bottom_m: -0.01,
             top_m: 0.2,
             places: base64([7; 24]),
