@@ -163,6 +163,10 @@ pub struct CoupledDiscrete {
     #[serde(default = "hold_period")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
     pub hold_period: f64,
+    /// Time from which on layers are held.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 1e5))]
+    pub hold_after: f64,
     /// Derived time step over the stability limit of a grain in a packing.
     #[serde(default = "safety")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]

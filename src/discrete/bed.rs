@@ -8,7 +8,8 @@ use super::body::Nothing;
 use super::checkpoint::{CheckpointError, Reader, Saved, Writer};
 use super::deposit::{BETWEEN, CHECKPOINT, Deposit, Stage, deposit, pace};
 use super::engine::Engine;
-use super::grains::{Grain, Point};
+use super::film::{self, Film};
+use super::grains::{Grain, Grains, Point};
 use super::impact::{contact_equations, law};
 use super::law::LinearSpring;
 use super::outcome::{self, Means};
@@ -28,6 +29,7 @@ struct Run<'a> {
     engine: Engine<LinearSpring>,
     averages: Averages,
     means: Means,
+    film: Film,
     /// steps of the flow, all and made
     steps: u64,
     made: u64,
@@ -95,9 +97,18 @@ fn go_on(mut run: Run<'_>, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
         }
     };
     let outcome = run.outcome(status)?;
-    let mut side = || picture::side_view(run.engine.grains()).into_bytes();
-    watch.keep("grains.csv", true, &mut side).map_err(|error| unwritable(&error))?;
+    keep_pictures(run.engine.grains(), &run.film, watch)?;
     Ok(outcome)
+}
+
+/// Offers what the report shows of the grains: where they are, and how they got there.
+pub(super) fn keep_pictures(grains: &Grains, film: &Film, watch: &mut dyn Watch) -> Result<(), SolveError> {
+    let mut side = || picture::side_view(grains).into_bytes();
+    watch.keep("grains.csv", true, &mut side).map_err(|error| unwritable(&error))?;
+    match film.file() {
+        Some(file) => watch.keep(film::FILE, true, &mut || file.clone()).map_err(|error| unwritable(&error)),
+        None => Ok(()),
+    }
 }
 
 /// A run that was interrupted.
@@ -152,7 +163,8 @@ impl<'a> Run<'a> {
         let area = bed.size[0] * bed.size[1];
         let averages = Averages::new(low, high, bed.discrete.slice * bed.d, area, bed.rho_p, BLOCKS as usize);
         let steps = (bed.discrete.duration / dt).round() as u64;
-        Ok(Self { bed, engine, averages, means: Means::default(), steps, made: 0 })
+        let film = Film::new(bed, engine.grains(), dt);
+        Ok(Self { bed, engine, averages, means: Means::default(), film, steps, made: 0 })
     }
 
     /// Reads the rest of a checkpoint of the flow.
@@ -168,7 +180,8 @@ impl<'a> Run<'a> {
         averages.fill(from)?;
         let mut means = Means::default();
         means.fill(from)?;
-        Ok(Self { bed, engine, averages, means, steps, made })
+        let film = Film::restore(from, engine.grains().len())?;
+        Ok(Self { bed, engine, averages, means, film, steps, made })
     }
 
     fn checkpoint(&self) -> Vec<u8> {
@@ -180,6 +193,7 @@ impl<'a> Run<'a> {
         to.whole(self.averages.shape()[0] as u64);
         self.averages.save(&mut to);
         self.means.save(&mut to);
+        self.film.save(&mut to);
         to.seal(&name(self.bed))
     }
 
@@ -198,6 +212,9 @@ impl<'a> Run<'a> {
             self.made += 1;
             if self.made > start && (self.made - start).is_multiple_of(every) {
                 self.sample(((self.made - start - 1) * BLOCKS / averaged) as usize);
+            }
+            if self.film.is_due(self.made) {
+                self.film.see(self.engine.grains(), self.made as f64 * self.engine.settings().dt);
             }
             if self.bed.discrete.frames > 0 && self.made.is_multiple_of(frame.max(1)) {
                 let number = self.made / frame.max(1);

@@ -14,7 +14,7 @@ use crate::numerics::sum::Sum;
 
 const MAGIC: &[u8; 8] = b"bedload\x01";
 /// Version of the layout.
-pub const VERSION: u32 = 3;
+pub const VERSION: u32 = 4;
 const HEAD: usize = 8 + 4 + 32 + 8;
 const DIGEST: usize = 32;
 
@@ -69,6 +69,11 @@ impl Writer {
     fn words(&mut self, words: impl ExactSizeIterator<Item = u64>) {
         self.whole(words.len() as u64);
         words.for_each(|word| self.whole(word));
+    }
+    /// Words of 4 bytes.
+    pub(super) fn half_words(&mut self, words: &[u32]) {
+        self.whole(words.len() as u64);
+        words.iter().for_each(|word| self.0.extend_from_slice(&word.to_le_bytes()));
     }
     /// The checkpoint of the case with the name `case`.
     #[must_use]
@@ -157,6 +162,13 @@ impl<'a> Reader<'a> {
     fn words(&mut self) -> Read<Vec<u64>> {
         let count = self.count()?;
         (0..count).map(|_| self.whole()).collect()
+    }
+    /// Words of 4 bytes.
+    pub(super) fn half_words(&mut self) -> Read<Vec<u32>> {
+        let count = usize::try_from(self.whole()?).ok().and_then(|count| count.checked_mul(4)).ok_or(SHORT)?;
+        let (words, rest) = self.0.split_at_checked(count).ok_or(SHORT)?;
+        self.0 = rest;
+        Ok(words.chunks_exact(4).map(|b| b.iter().rev().fold(0, |word, &b| word << 8 | u32::from(b))).collect())
     }
     /// Nothing may be left.
     ///

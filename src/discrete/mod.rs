@@ -19,6 +19,7 @@ pub mod deposit;
 pub mod domain;
 pub mod engine;
 pub mod error;
+pub mod film;
 pub mod forces;
 pub mod grains;
 pub mod guards;

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::grains::{CHECKPOINT, is_frame, is_partial};
+use super::grains::{CHECKPOINT, MOTION, PROBE, is_frame, is_partial};
 use super::run::read_summary;
 use super::{comparison, study};
 use crate::result::Status;
@@ -19,13 +19,12 @@ pub(super) const OURS: &[&str] = &[
     FIGURES,
     CHECKPOINT,
     "grains.csv",
+    MOTION,
     "section.csv",
     "section.vts",
 ];
 /// The one folder in it, of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
-/// Written and removed to see whether files can be made.
-pub(super) const PROBE: &str = ".probe";
 
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]

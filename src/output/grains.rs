@@ -1,11 +1,26 @@
 //! Files that runs of grains write as they go.
 
 use std::fs;
+use std::io::BufReader;
+use std::path::Path;
 
-use super::folder::{Folder, OutputError, PROBE, entries, write_whole};
+use super::folder::{Folder, OutputError, entries, write_whole};
+use crate::result::Motion;
 
 /// State from which a run of grains goes on.
 pub const CHECKPOINT: &str = "checkpoint.bin";
+
+/// The film of the grains that the report plays.
+pub(super) const MOTION: &str = crate::discrete::film::FILE;
+
+/// The film of a run, if its folder has one that is sound.
+pub(super) fn read_motion(place: &Path) -> Option<Motion> {
+    let file = fs::File::open(place.join(MOTION)).ok()?;
+    serde_json::from_reader(BufReader::new(file)).ok().filter(Motion::is_sound)
+}
+
+/// Written and removed to see whether files can be made.
+pub(super) const PROBE: &str = ".probe";
 
 /// What a run that was killed may leave behind.
 pub(super) fn is_partial(name: &str) -> bool {

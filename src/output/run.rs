@@ -9,6 +9,7 @@ use serde_json::Map;
 use sha2::{Digest, Sha256};
 
 use super::folder::{Folder, OutputError, write_whole};
+use super::grains::read_motion;
 use crate::case::Case;
 use crate::plot::{self, Figure, Page};
 use crate::problem::Problem;
@@ -190,7 +191,9 @@ fn draw(
         let (equations, notes) = (crate::equations(problem), [problem.title.clone()]);
         let picture = picture(place, summary);
         let (figures, picture) = (&figures, picture.as_ref().map(|(svg, caption)| (svg.as_str(), *caption)));
-        plot::report_html(&Page { summary, figures, picture, equations: &equations, case_toml: case, notes: &notes })
+        let (motion, equations) = (read_motion(place), equations.as_str());
+        let motion = motion.as_ref();
+        plot::report_html(&Page { summary, figures, picture, motion, equations, case_toml: case, notes: &notes })
     };
     write_whole(&place.join("report.html"), |to| to.write_all(page.as_bytes()))?;
     if !png {

@@ -11,7 +11,7 @@ use plotters::style::{
     Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle, register_font,
 };
 
-use super::theme::{self, BOLD, Role};
+use super::theme::{self, BOLD, Part, Role};
 use super::{Dash, Marker, PlotError};
 
 /// What differs between a vector and a bitmap backend.
@@ -54,6 +54,23 @@ pub(super) struct Canvas<'a, DB: DrawingBackend> {
 type Point = (f64, f64);
 
 impl<DB: DrawingBackend> Canvas<'_, DB> {
+    /// Begins a part of the drawing that a page finds again; a bitmap has no parts.
+    pub fn open(&self, part: Part, panel: usize, curve: usize) -> Result<(), PlotError> {
+        self.bracket(theme::opening(part, panel, curve))
+    }
+
+    /// Ends it.
+    pub fn close(&self) -> Result<(), PlotError> {
+        self.bracket(theme::CLOSING)
+    }
+
+    fn bracket(&self, colour: RGBColor) -> Result<(), PlotError> {
+        if !self.medium.dashes_later {
+            return Ok(());
+        }
+        self.area.draw_pixel((0, 0), &colour).map_err(PlotError::drawing)
+    }
+
     /// A line through `points`.
     pub fn line(&self, points: &[Point], stroke: Stroke) -> Result<(), PlotError> {
         let scale = self.medium.scale;
@@ -165,8 +182,12 @@ pub(super) fn width(text: &str, size: f64) -> Result<f64, PlotError> {
     Ok(f64::from(right - left) * size / FINE)
 }
 
-/// The points that a line needs to stay within `tolerance` of all of them (Douglas and Peucker 1973).
 fn simplified(points: &[Point], tolerance: f64) -> Vec<Point> {
+    points.iter().zip(kept(points, tolerance)).filter(|(_, kept)| *kept).map(|(p, _)| *p).collect()
+}
+
+/// Which points a line needs to stay within `tolerance` of all of them (Douglas and Peucker 1973).
+pub(super) fn kept(points: &[Point], tolerance: f64) -> Vec<bool> {
     let mut keep = vec![false; points.len()];
     let mut open = vec![(0, points.len().saturating_sub(1))];
     while let Some((from, to)) = open.pop() {
@@ -180,7 +201,7 @@ fn simplified(points: &[Point], tolerance: f64) -> Vec<Point> {
             open.extend([(from, split), (split, to)]);
         }
     }
-    points.iter().zip(keep).filter(|(_, kept)| *kept).map(|(p, _)| *p).collect()
+    keep
 }
 
 /// Distance of `p` from the segment between `a` and `b`.

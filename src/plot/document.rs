@@ -1,7 +1,8 @@
 //! A page of tables and figures that is not that of a run: the same style, the same escaping.
 
 use super::Figure;
-use super::report::{figures, head, pairs, typeset};
+use super::report::{figures, pairs, typeset};
+use super::shell::{foot, head};
 use super::svg::escape;
 
 /// What a page shows, from top to bottom.
@@ -75,18 +76,27 @@ pub fn document_html(page: &Document<'_>) -> String {
             }
         };
     }
-    html + "</main></body></html>\n"
+    html + &foot()
 }
 
+/// Texts of fewer characters stay on one line.
+const SHORT: usize = 32;
+
 fn table(heading: &str, lead: &str, head: &[String], rows: &[Vec<Cell>]) -> String {
-    let numeric = |i: usize| rows.iter().any(|row| matches!(row.get(i), Some(Cell::Number { .. })));
-    let class = |i: usize| if numeric(i) { " class=\"num\"" } else { "" };
-    let heads: String = head.iter().enumerate().map(|(i, h)| format!("<th{}>{}</th>", class(i), escape(h))).collect();
+    let any = |i: usize, is: fn(&Cell) -> bool| rows.iter().filter_map(|row| row.get(i)).any(is);
+    let numeric = |i| any(i, |cell| matches!(cell, Cell::Number { .. })) || !any(i, |c| matches!(c, Cell::Text(_)));
+    let said = |i| rows.is_empty() || any(i, |cell| !matches!(cell, Cell::Text(text) if text.is_empty()));
+    let class = |i| if numeric(i) { " class=\"num\"" } else { "" };
+    let named = head.iter().enumerate().filter(|(i, _)| said(*i));
+    let heads: String = named.map(|(i, name)| format!("<th{}>{}</th>", class(i), escape(name))).collect();
     let mut body = String::new();
     for row in rows {
         body += "<tr>";
-        for (i, cell) in row.iter().enumerate() {
+        for (i, cell) in row.iter().enumerate().filter(|(i, _)| said(*i)) {
             body += &match cell {
+                Cell::Text(text) if !numeric(i) && text.chars().count() < SHORT => {
+                    format!("<td class=\"short\">{}</td>", escape(text))
+                }
                 Cell::Text(text) => format!("<td{}>{}</td>", class(i), escape(text)),
                 Cell::Number { shown, full } => {
                     format!("<td{} title=\"{}\">{}</td>", class(i), escape(full), typeset(shown))
@@ -105,6 +115,7 @@ fn table(heading: &str, lead: &str, head: &[String], rows: &[Vec<Cell>]) -> Stri
 
 #[cfg(test)]
 mod tests {
+    use super::super::shell::tests::has_one_script;
     use super::*;
 
     #[test]
@@ -122,9 +133,18 @@ mod tests {
             Section::Facts(vec![("Origin", vec![("file".into(), hostile.into())])]),
         ];
         let html = document_html(&Document { title: hostile, subtitle: hostile, sections: &sections });
-        assert!(!html.contains("<script") && html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"));
+        has_one_script(&html);
+        assert!(!html.contains("<script>alert") && html.starts_with("<!DOCTYPE html>") && html.ends_with("</html>\n"));
         assert!(html.contains("title=\"-3.14159e-5\">−3.1 × 10<sup>−5</sup>&nbsp;m²/s</td>"), "{html}");
-        assert!(html.contains("<td title=\"not reported\">–</td>"));
+        assert!(html.contains("<td class=\"num\" title=\"not reported\">–</td>"));
         assert_eq!(html.matches("class=\"alert warn\"").count(), 1);
+    }
+
+    #[test]
+    fn a_column_that_says_nothing_is_left_out_and_short_texts_stay_on_one_line() {
+        let row = |text: &str| vec![Cell::Text(String::new()), Cell::Text(text.into())];
+        let html = table("t", "", &["series".into(), "what".into()], &[row("done"), row(&"long ".repeat(9))]);
+        assert!(!html.contains("series") && html.contains("<td class=\"short\">done</td>"), "{html}");
+        assert!(html.contains("<td>long long"));
     }
 }

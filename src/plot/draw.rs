@@ -6,7 +6,7 @@ use plotters::prelude::DrawingBackend;
 
 use super::canvas::{Align, Canvas, Medium, Stroke};
 use super::layout::{Frame, Layout, ROW, SAMPLE, SAMPLE_GAP, title};
-use super::theme::{BOLD, HAIR, LABEL, Role, SMALL};
+use super::theme::{BOLD, HAIR, LABEL, Part, Role, SMALL};
 use super::{Curve, Dash, Figure, Panel, PlotError};
 
 const TICK: f64 = 5.0;
@@ -31,10 +31,12 @@ pub(super) fn draw<DB: DrawingBackend>(
             canvas.line(&[(frame.x.span.0, y), (frame.x.span.1, y)], LEVEL)?;
         }
         axes(&canvas, layout, frame, i == 0)?;
-        for curve in &panel.curves {
+        for (c, curve) in panel.curves.iter().enumerate() {
+            canvas.open(Part::Curve, i, c)?;
             draw_curve(&canvas, figure, panel, curve, (layout, frame))?;
+            canvas.close()?;
         }
-        legend(&canvas, panel, frame)?;
+        legend(&canvas, panel, i, frame)?;
         let centre = (frame.x.span.0 + frame.x.span.1) / 2.0;
         canvas.text(&title(&panel.x, &frame.x), (centre, bottom + 36.0), LABEL, Align::Centre, Role::Ink)?;
         let letter = figure.letter(i);
@@ -161,9 +163,15 @@ fn error_bars<DB: DrawingBackend>(
     Ok(())
 }
 
-fn legend<DB: DrawingBackend>(canvas: &Canvas<'_, DB>, panel: &Panel, frame: &Frame) -> Result<(), PlotError> {
+fn legend<DB: DrawingBackend>(
+    canvas: &Canvas<'_, DB>,
+    panel: &Panel,
+    i: usize,
+    frame: &Frame,
+) -> Result<(), PlotError> {
     let Some((left, top)) = frame.legend else { return Ok(()) };
-    for (row, curve) in panel.curves.iter().filter(|c| !c.name.is_empty()).enumerate() {
+    for (row, (c, curve)) in panel.curves.iter().enumerate().filter(|(_, c)| !c.name.is_empty()).enumerate() {
+        canvas.open(Part::Key, i, c)?;
         let (role, middle) = (Role::Series(curve.colour), top + ROW * (row as f64 + 0.5));
         if let Some(dash) = curve.line {
             canvas.line(&[(left, middle), (left + SAMPLE, middle)], Stroke { role, width: BOLD, dash })?;
@@ -173,6 +181,7 @@ fn legend<DB: DrawingBackend>(canvas: &Canvas<'_, DB>, panel: &Panel, frame: &Fr
         }
         let at = (left + SAMPLE + SAMPLE_GAP, middle + 0.34 * SMALL);
         canvas.text(&curve.name, at, SMALL, Align::Left, Role::Ink)?;
+        canvas.close()?;
     }
     Ok(())
 }

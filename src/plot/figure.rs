@@ -109,6 +109,12 @@ impl Axis {
         Self { title: title.into(), unit: unit.into(), scale: Scale::Linear, ends: None }
     }
 
+    /// The elevation, whose ends the data decide.
+    #[must_use]
+    pub(super) fn elevation(unit: &str) -> Self {
+        Self::linear(ELEVATION, unit)
+    }
+
     /// A logarithmic axis whose ends the data decide.
     #[must_use]
     pub fn log(title: &str, unit: &str) -> Self {
@@ -125,7 +131,15 @@ impl Axis {
 /// Values beyond this are not drawn: differences of two of them must not overflow.
 const LARGEST: f64 = 1e280;
 
+/// Title of the vertical axis of profiles.
+pub(super) const ELEVATION: &str = "elevation z";
+
 impl Figure {
+    /// Whether its vertical axis is the elevation.
+    pub(super) fn is_over_elevation(&self) -> bool {
+        self.y.title == ELEVATION
+    }
+
     /// The letter of a panel: `(a)`; empty if there is only one panel.
     pub(super) fn letter(&self, panel: usize) -> String {
         let letter = u8::try_from(panel).ok().and_then(|i| b'a'.checked_add(i)).map_or('?', char::from);

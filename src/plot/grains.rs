@@ -3,15 +3,13 @@
 use std::fmt::Write;
 use std::io::BufRead;
 
-use crate::result::read_columns;
+use crate::result::{Motion, read_columns};
 use crate::units::readable;
 
 /// Colours from slow to fast; all tell apart from light and dark pages, and without colour by their lightness.
 const COLOURS: [[f64; 3]; 4] = [[68.0, 58.0, 120.0], [49.0, 122.0, 142.0], [94.0, 190.0, 112.0], [240.0, 210.0, 50.0]];
 /// Width of the picture [px].
 const WIDTH: f64 = 720.0;
-/// A bed longer than so many of its heights is drawn from its beginning to there.
-const LONGEST: f64 = 12.0;
 
 /// The picture from the columns x_m, z_m, radius_m, u_particle_m_s; none if there is nothing to draw.
 #[must_use]
@@ -31,7 +29,7 @@ pub fn grains_svg(table: impl BufRead) -> Option<String> {
     if !(whole > left && top > bottom) {
         return None;
     }
-    rows.retain(|g| g[0] + g[2] <= left + LONGEST * (top - bottom));
+    rows.retain(|g| g[0] + g[2] <= left + Motion::LONGEST * (top - bottom));
     let (_, right) = span(&rows, &|g| [g[0] - g[2], g[0] + g[2]]);
     let (slow, fast) = span(&rows, &|g| [g[3], g[3]]);
     let part = if right < whole {
@@ -86,6 +84,12 @@ pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64), note:
         readable(fast, "m/s")
     );
     svg
+}
+
+/// The colours from slow to fast, for the script that plays a film.
+pub(super) fn colours() -> String {
+    let last = COLOURS.len() - 1;
+    (0..=last).map(|i| colour(i as f64 / last as f64)).collect::<Vec<_>>().join(" ")
 }
 
 /// Colour of a share of the largest velocity.

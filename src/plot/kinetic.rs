@@ -86,7 +86,7 @@ impl Scene<'_> {
         Figure {
             stem: "fluctuations".into(),
             caption: format!("{case}: {} over the elevation z.", sentence(&panels)),
-            y: Axis { ends: Some((0.0, highest * factor)), ..Axis::linear("elevation z", unit) },
+            y: Axis { ends: Some((0.0, highest * factor)), ..Axis::elevation(unit) },
             panels,
             levels: Vec::new(),
             tint_below: None,

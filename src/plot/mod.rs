@@ -11,13 +11,16 @@ mod interface;
 mod judge;
 mod kinetic;
 mod layout;
+mod live;
 mod map;
+mod motion;
 mod png;
 mod profile;
 mod report;
 mod section;
 mod several;
 mod sheet;
+mod shell;
 mod svg;
 mod theme;
 #[cfg(test)]

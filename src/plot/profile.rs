@@ -96,7 +96,7 @@ impl<'a> Scene<'a> {
         let top = self.result(&quantity::FLOW_HEIGHT).unwrap_or(highest).max(highest);
         // cell centres start half a cell above the bottom
         let bottom = if lowest >= 0.0 && lowest < 0.2 * top { 0.0 } else { lowest };
-        Axis { ends: Some((bottom * factor, top * factor)), ..Axis::linear("elevation z", self.z_unit.1) }
+        Axis { ends: Some((bottom * factor, top * factor)), ..Axis::elevation(self.z_unit.1) }
     }
 
     fn figure(&self, stem: &str, panels: Vec<Panel>, y: Axis) -> Figure {

@@ -1,14 +1,16 @@
 //! The page of a run: numbers first, then what to doubt, the figures, the equations and the origin. One file, no
-//! network, no scripts; light and dark as the reader has it.
+//! network, nothing that needs its script; light and dark as the reader has it.
 
 use std::fmt::Write as _;
 
 use crate::result::quantity::{self, RESULTS};
-use crate::result::{Reported, Status, Summary};
+use crate::result::{Motion, Reported, Status, Summary};
 use crate::units::{readable, readable_mean, significant};
 
+use super::Figure;
+use super::motion::motion_html;
+use super::shell::{foot, head};
 use super::svg::{escape, svg};
-use super::{Figure, theme};
 
 /// What the page shows.
 #[derive(Clone, Copy, Debug)]
@@ -19,6 +21,8 @@ pub struct Page<'a> {
     pub figures: &'a [Figure],
     /// a picture as SVG with its caption, if there is one
     pub picture: Option<(&'a str, &'a str)>,
+    /// the film of its grains, which takes the place of the picture where it can be played
+    pub motion: Option<&'a Motion>,
     /// the equations solved, as text with line breaks
     pub equations: &'a str,
     /// the resolved case
@@ -53,6 +57,7 @@ pub fn report_html(page: &Page<'_>) -> String {
     html += &results(summary);
     html += &balances(summary);
     html += &validity(summary);
+    html += &page.motion.map(motion_html).unwrap_or_default();
     html += &figures(page.figures);
     if let Some((picture, caption)) = page.picture {
         html += &format!(
@@ -71,27 +76,10 @@ pub fn report_html(page: &Page<'_>) -> String {
     }
     html += &origin(summary);
     html += &format!(
-        "<details><summary>Resolved case, every default filled in</summary><pre>{}</pre></details>\n</main></body></html>\n",
+        "<details><summary>Resolved case, every default filled in</summary><pre>{}</pre></details>\n",
         escape(page.case_toml.trim_end())
     );
-    html
-}
-
-/// Everything before the content: title, style in light and dark. `version` of bedload made it.
-pub(super) fn head(title: &str, version: &str) -> String {
-    format!(
-        "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\
-         <meta name=\"color-scheme\" content=\"light dark\"><meta name=\"generator\" content=\"bedload {}\">\
-         <title>{} · bedload</title>\n<style>:root{{{}}}\n@media(prefers-color-scheme:dark){{:root{{{}}}}}\n\
-         @media print{{:root{{{}}}}}\n{}</style></head>\n<body><main>\n",
-        escape(version),
-        escape(title),
-        theme::variables(false),
-        theme::variables(true),
-        theme::variables(false),
-        include_str!("report.css"),
-    )
+    html + &foot()
 }
 
 /// What went wrong, before everything else, and whether a state was drawn nevertheless.
@@ -164,7 +152,16 @@ fn value(reported: &Reported, unit: &'static str) -> String {
     let Some(value) = reported.value else {
         return format!("<span class=\"none\">– {}</span>", escape(reported.reason.as_deref().unwrap_or("undefined")));
     };
-    typeset(&reported.stderr.map_or_else(|| readable(value, unit), |error| readable_mean(value, error, unit)))
+    typeset(&match reported.stderr {
+        Some(error) => readable_mean(value, error, unit),
+        None if unit == "1" && is_count(value) => format!("{value}"),
+        None => readable(value, unit),
+    })
+}
+
+/// Whether a number is whole, as those of grains and iterations are: it has no digits after the point to show.
+fn is_count(x: f64) -> bool {
+    x.fract() == 0.0 && (1.0..1e15).contains(&x)
 }
 
 /// `u_max_m_s = 0.31234567`.
@@ -292,6 +289,7 @@ fn subscripts(symbol: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use super::super::shell::tests::has_one_script;
     use super::super::{profile_figures, trials};
     use super::*;
 
@@ -304,6 +302,8 @@ mod tests {
         assert_eq!(subscripts("U - u_p"), "U − u<sub>p</sub>");
         assert_eq!(subscripts("z(u_max)"), "z(u<sub>max</sub>)");
         assert_eq!(duration(2.1e-4), "210 µs");
+        let shown = [730.0, 0.0, 0.5].map(|x| value(&Reported { value: Some(x), stderr: None, reason: None }, "1"));
+        assert_eq!(shown, ["730", "0", "0.5000"].map(str::to_owned));
     }
 
     #[test]
@@ -315,6 +315,7 @@ mod tests {
             summary: &summary,
             figures: &figures,
             picture: None,
+            motion: None,
             equations: "τ = η du/dz",
             case_toml: toml,
             notes: &[],
@@ -333,10 +334,8 @@ mod tests {
         assert!(places.is_sorted(), "{places:?}");
         assert!(html.contains("transport_rate_m2_s = 3.3103e-5") && html.contains("33.10&nbsp;mm²/s"));
         assert!(html.contains("the phases move together"));
-        assert!(
-            !html.contains("http://")
-                || html.matches("http").count() == html.matches("http://www.w3.org/2000/svg").count()
-        );
+        assert_eq!(html.matches("http://").count(), html.matches("http://www.w3.org/2000/svg").count());
+        assert!(!html.contains("https:"));
     }
 
     #[test]
@@ -348,11 +347,13 @@ mod tests {
             summary: &summary,
             figures: &figures,
             picture: None,
+            motion: None,
             equations: hostile,
             case_toml: hostile,
             notes: &[hostile.into()],
         });
-        assert!(!html.contains("<script") && !html.contains("<img") && !html.contains("</title><script"));
+        has_one_script(&html);
+        assert!(!html.contains("<script>alert") && !html.contains("<img"));
         assert!(html.contains("&lt;script&gt;"));
         let alert = html.find("no-static-bed").unwrap();
         assert!(alert < html.find("<h2>Results").unwrap());

@@ -111,7 +111,7 @@ impl Scene<'_> {
         for level in &levels {
             caption += &format!("; {} at {} {unit}", level.label, crate::units::significant(level.y, 4));
         }
-        let y = Axis { ends: self.ends().map(|(a, b)| (a * factor, b * factor)), ..Axis::linear("elevation z", unit) };
+        let y = Axis { ends: self.ends().map(|(a, b)| (a * factor, b * factor)), ..Axis::elevation(unit) };
         Figure { stem, caption: caption + ".", y, panels, levels, tint_below: bed }
     }
 

@@ -8,10 +8,10 @@ use plotters::prelude::{IntoDrawingArea, SVGBackend};
 use super::canvas::{LINE_HEIGHT, Medium};
 use super::draw::draw;
 use super::layout::Layout;
-use super::{Figure, PlotError, theme};
+use super::{Figure, PlotError, live, theme};
 
 /// Grid steps per unit of the figure.
-const GRID: f64 = 10.0;
+pub(super) const GRID: f64 = 10.0;
 
 /// Smallest and largest magnification: text between 8 and 15 pixels.
 const SMALLEST: f64 = 0.72;
@@ -37,7 +37,7 @@ pub fn svg(figure: &Figure) -> Result<String, PlotError> {
     }
     let mut out = format!(
         "<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" style=\"min-width:{:.0}px;max-width:{:.0}px\" \
-         role=\"img\" font-size=\"{:.0}\"><title>{}</title><style>{}</style>\n",
+         role=\"img\" font-size=\"{:.0}\"><title>{}</title><style>{}</style>\n{}",
         size.0,
         size.1,
         layout.size.0 * SMALLEST,
@@ -45,6 +45,7 @@ pub fn svg(figure: &Figure) -> Result<String, PlotError> {
         theme::SMALL * GRID,
         escape(&figure.caption),
         theme::rules(GRID),
+        live::panes(figure, &layout),
     );
     let body = raw.split_once('>').map_or("", |(_, body)| body);
     for part in body.split_inclusive('>') {
@@ -52,7 +53,11 @@ pub fn svg(figure: &Figure) -> Result<String, PlotError> {
         let (text, tag) = part.split_once('<').unwrap_or((part, ""));
         out.push_str(text.trim_matches('\n'));
         if !tag.is_empty() {
-            restyle(tag, &mut out);
+            match bracket(tag) {
+                Some(Some((part, at))) => out += &live::open(part, at, figure, &layout),
+                Some(None) => out += "</g>\n",
+                None => restyle(tag, &mut out),
+            }
         }
     }
     Ok(match out.rfind("</svg>") {
@@ -80,6 +85,12 @@ fn notes(figure: &Figure, layout: &Layout) -> String {
         }
     }
     out
+}
+
+/// Whether a tag, given without its `<`, stands for the beginning of a part or, within, for its end.
+fn bracket(tag: &str) -> Option<Option<(theme::Part, (usize, usize))>> {
+    let (_, fill) = tag.strip_prefix("rect ")?.split_once("fill=\"")?;
+    theme::bracket(fill.split_once('"')?.0)
 }
 
 /// Writes a tag, given without its `<`, with classes for sentinel colours and without what the classes imply.

@@ -72,6 +72,45 @@ pub(super) fn unseal(hex: &str) -> Option<(&'static str, usize)> {
     (seal == SEAL && usize::from(pattern) < PATTERNS.len()).then_some((*name, usize::from(pattern)))
 }
 
+/// What a page may want to find again in a drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// a curve with its markers and bars
+    Curve,
+    /// its entry in the legend
+    Key,
+}
+
+const CURVE_SEAL: u8 = 0x5f;
+const KEY_SEAL: u8 = 0x60;
+
+/// A colour that stands for the beginning of a part, to be replaced by a tag when the drawing is done.
+pub(super) fn opening(part: Part, panel: usize, curve: usize) -> RGBColor {
+    let seal = if part == Part::Key { KEY_SEAL } else { CURVE_SEAL };
+    let narrow = |n: usize| u8::try_from(n).unwrap_or(u8::MAX);
+    RGBColor(narrow(panel), narrow(curve), seal)
+}
+
+/// The same for its end.
+pub(super) const CLOSING: RGBColor = RGBColor(0, 0, 0x61);
+
+/// What an [`opening`] or [`CLOSING`] in the form `#RRGGBB` stands for: the part with panel and curve, or its end.
+pub(super) fn bracket(hex: &str) -> Option<Option<(Part, (usize, usize))>> {
+    let [_, panel, curve, seal] = u32::from_str_radix(hex.strip_prefix('#')?, 16).ok()?.to_be_bytes();
+    let at = (usize::from(panel), usize::from(curve));
+    match seal {
+        CURVE_SEAL => Some(Some((Part::Curve, at))),
+        KEY_SEAL => Some(Some((Part::Key, at))),
+        seal if seal == CLOSING.2 => Some(None),
+        _ => None,
+    }
+}
+
+/// Name of the colour of a curve.
+pub(super) fn series(colour: usize) -> &'static str {
+    COLOURS.get(Role::Series(colour).index()).map_or("ink", |c| c.0)
+}
+
 /// Strokes and gaps of each dash, in units of the figure.
 const PATTERNS: &[(Dash, &[f64])] = &[
     (Dash::Solid, &[]),

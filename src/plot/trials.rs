@@ -253,6 +253,7 @@ fn draw_the_trials() {
             summary: &summary,
             figures: &figures,
             picture: None,
+            motion: None,
             equations,
             case_toml,
             notes: &notes,

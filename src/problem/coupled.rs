@@ -45,8 +45,8 @@ pub struct Coupled {
     pub fluid_steps: u32,
     /// how it is stepped
     pub fluid_scheme: FluidScheme,
-    /// mean way of a layer that is held, in diameters, and the time in which it is gone [s]
-    pub hold: Option<(f64, f64)>,
+    /// mean way of a layer that is held, in diameters, the time in which it is gone [s], and the time from which on [s]
+    pub hold: Option<[f64; 3]>,
     /// time between two samples [s]
     pub sample_period: f64,
     /// standard error of the transport rate, relative to it, with which the run ends
@@ -155,7 +155,7 @@ pub(super) fn coupled(scene: &Scene, model: &str, faults: &mut Faults) -> Option
         coupling_period,
         fluid_steps: discrete.fluid_steps,
         fluid_scheme: discrete.fluid_scheme,
-        hold: discrete.hold_creep.map(|creep| (creep, discrete.hold_period)),
+        hold: discrete.hold_creep.map(|creep| [creep, discrete.hold_period, discrete.hold_after]),
         sample_period,
         known_to: discrete.known_to,
     })

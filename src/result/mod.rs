@@ -1,6 +1,7 @@
 //! What a run returns: profiles over z, series over iterations or time, named numbers, and where all of it came from.
 //! These are the only types that plots, reports, tables and comparisons accept.
 
+mod motion;
 mod outcome;
 mod provenance;
 pub mod quantity;
@@ -8,6 +9,7 @@ mod summary;
 mod table;
 mod watch;
 
+pub use motion::{Motion, base64};
 pub use outcome::{Failure, Outcome, SolveError};
 pub use provenance::Provenance;
 pub use quantity::Quantity;

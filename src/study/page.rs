@@ -84,7 +84,7 @@ fn points(head: &Head<'_>, rows: &[Row], judgement: &Judgement) -> Section<'stat
         cells.extend(row.point.values.iter().map(|value| value.as_str().into()));
         cells.push(Cell::Text(row.status.to_string()));
         let measures = judgement.measures.iter();
-        cells.extend(measures.map(|(_, all)| number(all.get(i).copied().flatten(), &|x| significant(x, 3))));
+        cells.extend(measures.map(|(_, all)| number(all.get(i).copied().flatten(), &measure)));
         cells.extend(shown.iter().map(|q| number(row.result(q.name), &|x| readable(x, q.unit))));
         cells.push(number(row.iterations.map(|n| n as f64), &|n| format!("{n}")));
         let ran = (row.status == Status::Done).then_some(row.cost.solve_s);
@@ -93,6 +93,11 @@ fn points(head: &Head<'_>, rows: &[Row], judgement: &Judgement) -> Section<'stat
     });
     let lead = "Each point is a run folder of its own under points/; all of its results are in points.csv.";
     Section::Table { heading: "Points", lead: lead.into(), rows: cells.collect(), head: heads }
+}
+
+/// Three digits, or a whole number as it is.
+fn measure(x: f64) -> String {
+    if x.fract() == 0.0 && x.abs() < 1e15 { format!("{x}") } else { significant(x, 3) }
 }
 
 impl From<&str> for Cell {

@@ -18,6 +18,7 @@ mod kinetic;
 mod limits;
 mod mutate;
 mod never_panics;
+mod page;
 mod paths;
 mod report;
 mod schema;

@@ -106,6 +106,7 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
         summary: &summary,
         figures: &figures,
         picture: None,
+        motion: None,
         equations: &equations,
         case_toml: &resolved,
         notes: &[],

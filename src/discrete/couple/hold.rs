@@ -21,8 +21,9 @@ const FEW: usize = 4;
 pub struct Hold {
     /// mean way of a layer at rest [m]
     creep: f64,
-    /// coupling periods between two looks
+    /// coupling periods between two looks, and before the first
     every: u64,
+    after: u64,
     d: f64,
     periods: [f64; 2],
     /// grains of the bottom, which come first and are fixed for good
@@ -36,11 +37,12 @@ pub struct Hold {
 impl Hold {
     /// Nothing is held yet; `None` if nothing is to be.
     pub fn new<C: ContactLaw>(flow: &Coupled, engine: &Engine<C>) -> Option<Self> {
-        let (creep, period) = flow.hold?;
+        let [creep, period, after] = flow.hold?;
         let d = flow.bed.d;
         let mut hold = Self {
             creep: creep * d,
             every: (period / flow.coupling_period).round().max(1.0) as u64,
+            after: (after / flow.coupling_period).round() as u64,
             d,
             periods: flow.bed.size,
             fixed: engine.grains().len() - flow.bed.mobile,
@@ -66,6 +68,10 @@ impl Hold {
     /// Looks at the layers after period `made`, if it is time to.
     pub fn look<C: ContactLaw>(&mut self, made: u64, engine: &mut Engine<C>) {
         if !made.is_multiple_of(self.every) {
+            return;
+        }
+        if made <= self.after {
+            self.remember(engine);
             return;
         }
         let grains = engine.grains();

@@ -12,6 +12,7 @@ mod limits;
 mod outcome;
 mod record;
 mod run;
+mod scene;
 #[cfg(test)]
 mod tests;
 

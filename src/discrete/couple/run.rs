@@ -8,26 +8,26 @@ use super::hold::Hold;
 use super::limits;
 use super::outcome;
 use super::record::{BLOCKS, Record};
+use super::scene::{gravity, level, relief};
 use crate::case::grain_tables::Bottom;
 use crate::closures::fluctuation::Fluctuation;
 use crate::column::ColumnError;
 use crate::discrete::average::Averages;
-use crate::discrete::bed::{refused, threads, unwritable};
+use crate::discrete::bed::{keep_pictures, refused, threads, unwritable};
 use crate::discrete::checkpoint::{CheckpointError, Reader, Saved, Writer};
 use crate::discrete::deposit::{CHECKPOINT, Deposit, Stage, deposit};
 use crate::discrete::engine::Engine;
-use crate::discrete::grains::{Grain, Point};
+use crate::discrete::film::Film;
 use crate::discrete::impact::{contact_equations, law};
 use crate::discrete::law::LinearSpring;
 use crate::discrete::outcome::nothing;
-use crate::discrete::{pack, picture, stability};
+use crate::discrete::{picture, stability};
 use crate::problem::{Coupled, Surface};
 use crate::result::{Failure, Outcome, Snapshot, SolveError, Status, Watch, quantity as q};
 use crate::runtime::rng::Stream;
 use crate::units::significant;
 
-/// Streams of random numbers of a coupled flow.
-const RELIEF: u64 = 3;
+/// Stream of random numbers of the eddies.
 const EDDIES: u64 = 4;
 
 /// A flow that is followed.
@@ -39,6 +39,7 @@ pub(super) struct Run<'a> {
     pub record: Record,
     /// what is held of the deep bed
     pub hold: Option<Hold>,
+    pub film: Film,
     /// steps of the grains in a period; periods in a sample and in the whole run, and those made
     pub steps: u64,
     pub sampled: u64,
@@ -125,35 +126,8 @@ fn go_on(mut run: Run<'_>, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
         }
     };
     let outcome = outcome::outcome(&mut run, status)?;
-    let mut side = || picture::side_view(run.engine.grains()).into_bytes();
-    watch.keep("grains.csv", true, &mut side).map_err(|error| unwritable(&error))?;
+    keep_pictures(run.engine.grains(), &run.film, watch)?;
     Ok(outcome)
-}
-
-/// Fixed grains side by side at random elevations in steps; none on another bottom.
-pub(super) fn relief(flow: &Coupled) -> Vec<Grain> {
-    let (largest, step) = flow.relief;
-    let mut fixed = pack::bottom(&flow.bed);
-    // Steps on either side of the mean: with an even number of them, none is at the mean.
-    let kinds = (2.0 * largest / step).round() + 1.0;
-    for (n, grain) in fixed.iter_mut().enumerate() {
-        let draw = Stream::new([u64::from(flow.bed.discrete.seed), RELIEF, n as u64]).uniform();
-        grain.position[2] = (draw * kinds).floor() * step - 0.5 * (kinds - 1.0) * step;
-    }
-    fixed
-}
-
-/// Highest cell up to which the solid fraction, averaged over a diameter, is half of its largest value; as a level [m].
-pub(super) fn level(phi: &[f64], height: f64, d: f64) -> f64 {
-    let half = ((0.5 * d / height).round() as usize).max(1);
-    let mean = |i: usize| {
-        let part = &phi[i.saturating_sub(half)..(i + half + 1).min(phi.len())];
-        part.iter().sum::<f64>() / part.len() as f64
-    };
-    let means: Vec<f64> = (0..phi.len()).map(mean).collect();
-    let largest = means.iter().copied().fold(0.0, f64::max);
-    let top = means.iter().rposition(|&phi| largest > 0.0 && phi >= 0.5 * largest);
-    top.map_or(0.0, |i| (i + 1) as f64 * height)
 }
 
 impl<'a> Run<'a> {
@@ -184,10 +158,12 @@ impl<'a> Run<'a> {
         let area = bed.size[0] * bed.size[1];
         let shape = [0.0, exchange.cell_height(), area * exchange.cell_height(), bed.rho_p];
         let sampled = (flow.sample_period / flow.coupling_period).round().max(1.0) as u64;
+        let film = Film::new(bed, engine.grains(), flow.coupling_period);
         Ok(Self {
             flow,
             engine,
             exchange,
+            film,
             averages: Averages::empty(cells, BLOCKS, shape),
             record: Record::new(cells),
             steps: steps as u64,
@@ -225,6 +201,9 @@ impl<'a> Run<'a> {
             let sample = self.made.is_multiple_of(self.sampled);
             if sample {
                 self.sample();
+            }
+            if self.film.is_due(self.made) {
+                self.film.see(self.engine.grains(), self.time());
             }
             if frames > 0 && self.made.is_multiple_of((self.periods / frames).max(1)) {
                 let number = self.made / (self.periods / frames).max(1);
@@ -324,6 +303,7 @@ impl<'a> Run<'a> {
         self.averages.save(&mut to);
         self.record.write(&mut to);
         self.hold.iter().for_each(|hold| hold.save(&mut to));
+        self.film.save(&mut to);
         to.seal(&name(self.flow))
     }
 
@@ -345,15 +325,24 @@ impl<'a> Run<'a> {
         averages.fill(from)?;
         let record = Record::read(from, cells)?;
         let hold = Hold::restore(flow, &engine, from)?;
-        Ok(Self { flow, engine, exchange, averages, record, hold, steps, sampled, periods, made, turn, draws, rates })
+        let film = Film::restore(from, engine.grains().len())?;
+        Ok(Self {
+            flow,
+            engine,
+            exchange,
+            averages,
+            record,
+            hold,
+            film,
+            steps,
+            sampled,
+            periods,
+            made,
+            turn,
+            draws,
+            rates,
+        })
     }
-}
-
-/// Weight of a grain in a fluid that flows steadily under a free surface, over its mass: all of it along the flow, the
-/// submerged part normal to it.
-pub(super) fn gravity(flow: &Coupled) -> Point {
-    let bed = &flow.bed;
-    [bed.g * bed.beta.sin(), 0.0, -(1.0 - flow.rho_f / bed.rho_p) * bed.g * bed.beta.cos()]
 }
 
 /// The equations that are solved, with their numbers.

@@ -2,7 +2,8 @@
 
 use super::exchange::Exchange;
 use super::record::Record;
-use super::run::{HalfWay, Run, gravity, level, relief, resume};
+use super::run::{HalfWay, Run, resume};
+use super::scene::{gravity, level, relief};
 use super::{Felt, run};
 use crate::case::grain_tables::Bottom;
 use crate::closures::contact::{LinearSpring, Tension};
@@ -37,6 +38,7 @@ fn flow() -> Coupled {
         force_time_step: false,
         hold_creep: None,
         hold_period: 0.2,
+        hold_after: 0.0,
         safety: 0.7,
         skin: 0.3,
         slice: 1.0 / 30.0,
