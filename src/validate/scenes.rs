@@ -57,13 +57,16 @@ pub struct Scene {
     pub kept: Option<(&'static str, Rival)>,
 }
 
+/// Two numbers, or why there are none.
+pub type Found = Result<(f64, f64), String>;
+
 /// What a model makes of a scene: relative error and time to solve [s]; or why there is none.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// what it is
     pub name: String,
     /// relative error [1] and time [s], or the reason
-    pub found: Result<(f64, f64), String>,
+    pub found: Found,
 }
 
 /// A scene with what came of the advice on it.
@@ -94,7 +97,7 @@ fn owned(set: &[&str]) -> Vec<String> {
 }
 
 /// Solves a case: the quantity and the shortest of some times [s].
-fn solve(case: &str, set: &[String], quantity: &str) -> Result<(f64, f64), String> {
+fn solve(case: &str, set: &[String], quantity: &str) -> Found {
     let (_, problem) = Problem::load(case, set).map_err(|error| error.to_string())?;
     let mut best = f64::INFINITY;
     let mut value = None;
@@ -116,7 +119,7 @@ fn one(scene: Scene) -> Judged {
         Truth::Known(value, error, _) => Ok((value, error)),
     };
     let known = truth.as_ref().map_or(0.0, |(value, error)| if *value == 0.0 { *error } else { (error / value).abs() });
-    let answer = |name: &str, found: Result<(f64, f64), String>| {
+    let answer = |name: &str, found: Found| {
         let error = |value: f64, truth: f64| if truth == 0.0 { value.abs() } else { (value / truth - 1.0).abs() };
         let found = found.and_then(|(value, time)| Ok((error(value, truth.clone()?.0), time)));
         Answer { name: name.into(), found }
@@ -143,12 +146,7 @@ fn one(scene: Scene) -> Judged {
 }
 
 /// What the advised model makes of the scene; grains are not run: they are the truth there, with its error and time.
-fn advised(
-    scene: &Scene,
-    least: &Least,
-    set: &[String],
-    answer: &dyn Fn(&str, Result<(f64, f64), String>) -> Answer,
-) -> Answer {
+fn advised(scene: &Scene, least: &Least, set: &[String], answer: &dyn Fn(&str, Found) -> Answer) -> Answer {
     if let (Truth::Known(_, _, Some(run)), "coupled") = (scene.truth, least.kind) {
         return answer(least.kind, Ok(run));
     }
