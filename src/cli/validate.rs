@@ -1,7 +1,7 @@
 //! `bedload validate`: re-run what the cases claim.
 
-use std::fs;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use clap::Args;
 use serde_json::{Value, json};
@@ -9,9 +9,10 @@ use serde_json::{Value, json};
 use super::progress::Progress;
 use super::{CliError, answer, say};
 use crate::case::checks::Tier;
+use crate::plot;
 use crate::units::significant;
 use crate::validate::scenes::{self, Judged};
-use crate::validate::{Row, Verdict, markdown, validate};
+use crate::validate::{Row, Verdict, figure, markdown, validate};
 
 /// Re-run what the cases claim and write the table.
 #[derive(Debug, Args)]
@@ -43,6 +44,9 @@ impl Validate {
                 fs::create_dir_all(folder)?;
             }
             let advice = if judged.is_empty() { String::new() } else { scenes::markdown(&judged) };
+            let drawing = file.with_file_name("figures").join("validation.png");
+            fs::create_dir_all(drawing.with_file_name(""))?;
+            plot::png(&figure(&rows), &drawing).map_err(|error| io::Error::other(error.to_string()))?;
             fs::write(&file, markdown(&rows) + &advice)?;
         }
         let verdicts = || rows.iter().map(|r| r.verdict).chain(judged.iter().map(|j| j.verdict));

@@ -7,8 +7,9 @@ use std::fmt::Write;
 
 use crate::case::checks::{Check, CheckKind, Limit, Tier};
 use crate::case::{CaseError, shipped};
+use crate::plot::{Axis, Curve, Dash, Figure, Marker, Panel};
 use crate::problem::Problem;
-use crate::result::{Failure, Outcome, Watch, quantity};
+use crate::result::{Failure, Outcome, Provenance, Watch, quantity};
 use crate::study::StudyError;
 use crate::study::limits;
 use crate::study::stability::Request;
@@ -156,18 +157,63 @@ fn find(check: &Check, outcome: &Outcome) -> Option<f64> {
     }
 }
 
+/// Deviations below this are round-off and drawn there.
+const ROUND_OFF: f64 = 1e-17;
+
+/// Deviation against tolerance of every row that has both.
+#[must_use]
+pub fn figure(rows: &[Row]) -> Figure {
+    let of = |kind: CheckKind, name: &str, colour: usize, marker: Marker| {
+        let points = rows.iter().filter(|row| row.check.kind == kind && row.check.tolerance > 0.0);
+        let points = points.filter_map(|row| Some((row.check.tolerance, row.deviation()?.max(ROUND_OFF), row)));
+        let points: Vec<_> = points.collect();
+        Curve {
+            name: name.into(),
+            points: points.iter().map(|(x, y, _)| Some((*x, *y))).collect(),
+            notes: points.iter().map(|(_, _, row)| format!("{} {}", row.case, row.quantity)).collect(),
+            colour,
+            marker: Some(marker),
+            ..Curve::default()
+        }
+    };
+    let limit = Curve {
+        name: "deviation = tolerance".into(),
+        points: vec![Some((1e-13, 1e-13)), Some((1.0, 1.0))],
+        line: Some(Dash::Dashed),
+        ..Curve::default()
+    };
+    let curves = vec![
+        limit,
+        of(CheckKind::Verification, "verification", 1, Marker::Circle),
+        of(CheckKind::Validation, "validation", 2, Marker::Square),
+        of(CheckKind::Regression, "regression", 3, Marker::Triangle),
+        of(CheckKind::Finding, "finding: shown, not judged", 4, Marker::Cross),
+    ];
+    Figure {
+        stem: "validation".into(),
+        caption: "Deviation of every checked number against its tolerance: what is judged lies below the line.".into(),
+        y: Axis::log("deviation from the expected value", "1"),
+        panels: vec![Panel { x: Axis::log("tolerance", "1"), curves }],
+        levels: Vec::new(),
+        tint_below: None,
+    }
+}
+
 /// The table as Markdown: `docs/validation.md`.
 #[must_use]
 pub fn markdown(rows: &[Row]) -> String {
-    let mut text = String::from(
-        "# Validation\n\nWritten by `bedload validate --full`; do not edit. Each row is a `[[check]]` of a shipped case (run the case \
+    let made = Provenance::of_this_program();
+    let mut text = format!(
+        "# Validation\n\nMade by bedload {} ({}), {}, {}.\n\n![Deviation against tolerance](figures/validation.png)\n\n",
+        made.bedload, made.commit, made.rustc, made.target
+    );
+    text += "Written by `bedload validate --full`; do not edit. Each row is a `[[check]]` of a shipped case (run the case \
          to see it in its place) or its `[limit]`, where its method ends (`bedload stability CASE`).\n\n\
          - verification: against an exact or independently computed solution of the same equations\n\
          - validation: against measurements or published results\n\
          - finding: a claim that is not reproduced; both numbers are shown and it is never red\n\n\
          | case | quantity | kind | expected | found | deviation | tolerance | verdict | source |\n\
-         |---|---|---|---|---|---|---|---|---|\n",
-    );
+         |---|---|---|---|---|---|---|---|---|\n";
     for row in rows {
         let at = row.check.at.map_or_else(String::new, |z| format!(" at {} m", significant(z, 4)));
         let found = row.found.as_ref().map_or_else(Clone::clone, |x| significant(*x, 7));
