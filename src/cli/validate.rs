@@ -23,6 +23,9 @@ pub(super) struct Validate {
     /// Include the rows that take long
     #[arg(long)]
     full: bool,
+    /// Judge advice on scenes whose answer is known, too; so does --full without cases
+    #[arg(long)]
+    advice: bool,
     /// File for the table [default: docs/validation.md with --full, where there is a folder docs]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -35,7 +38,7 @@ impl Validate {
     pub(super) fn execute(self) -> Result<(), CliError> {
         let tier = if self.full { Tier::Full } else { Tier::Quick };
         let rows = validate(&self.cases, tier, &mut Progress::new(self.json))?;
-        let judged = if self.full && self.cases.is_empty() { scenes::judge() } else { Vec::new() };
+        let judged = if self.advice || self.full && self.cases.is_empty() { scenes::judge() } else { Vec::new() };
         let default = (self.full && self.cases.is_empty())
             .then(|| PathBuf::from("docs/validation.md"))
             .filter(|_| Path::new("docs").is_dir());

@@ -173,7 +173,7 @@ fn figure(varied: &[Varied], rows: &[Row], found: &[Found]) -> Figure {
         let key = varied.get(i).map_or("", |v| v.key.as_str());
         let values = || rows.iter().filter_map(move |row| number(row, i));
         let (low, high) = values().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-        let scale = if low > 0.0 && high > 20.0 * low { Scale::Log } else { Scale::Linear };
+        let scale = if low > 0.0 && high >= 20.0 * low { Scale::Log } else { Scale::Linear };
         Axis { scale, ..Axis::linear(key, &unit(i)) }
     };
     let map = varied.len() > 1 && rows.iter().all(|row| number(row, 1).is_some());

@@ -133,7 +133,7 @@ fn one(scene: Scene) -> Judged {
     let rival = |rival: &Rival| answer(rival.name, solve(rival.case, &owned(rival.set), scene.quantity));
     let rivals: Vec<Answer> = scene.rivals.iter().map(rival).collect();
     let without = scene.kept.map(|(_, dropped)| rival(&dropped));
-    let good = |answer: &Answer| answer.found.as_ref().is_ok_and(|(error, _)| *error <= scene.tolerance + known);
+    let good = |answer: &Answer| answer.found.as_ref().is_ok_and(|(error, _)| *error <= scene.tolerance.hypot(known));
     let faster = |other: &&Answer| match (&other.found, &advised.found) {
         (Ok((_, time)), Ok((_, own))) => good(other) && time < own && other.name != advised.name,
         _ => false,
@@ -161,8 +161,8 @@ fn advised(scene: &Scene, least: &Least, set: &[String], answer: &dyn Fn(&str, F
 #[must_use]
 pub fn markdown(judged: &[Judged]) -> String {
     let mut text = String::from(
-        "\n# Advice\n\n`bedload advise` on scenes whose answer is known. The model that it names has to answer within the tolerance (plus the error of \
-         what is known), and no other one as well in less time; where it keeps a term, the scene without that term has to miss the \
+        "\n# Advice\n\n`bedload advise` on scenes whose answer is known. The model that it names has to answer within the tolerance (and the error of \
+         what is known, as a sum of squares), and no other one as well in less time; where it keeps a term, the scene without that term has to miss the \
          tolerance. Errors are of the number in the second column; grains take the time of the run that is the truth.\n\n\
          | scene | number | tolerance | advised | its error | others | the term that is kept, and the error without it | verdict | truth |\n\
          |---|---|---|---|---|---|---|---|---|\n",

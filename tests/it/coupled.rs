@@ -123,3 +123,31 @@ fn grains_that_give_nothing_back_fall_and_flow() {
     // What takes ten times the step to be stable is not run at the step of lively grains.
     assert!(step < 5e-5, "{step}");
 }
+
+#[test]
+fn a_deep_bed_at_rest_is_held_and_the_accounts_close() {
+    let scratch = Scratch::new();
+    let run = |more: &[&str]| {
+        let sets = [
+            "discrete.fluid_scheme=implicit",
+            "discrete.coupling_period=10 ms",
+            "discrete.hold_period=0.1 s",
+            "discrete.slice=0.0333",
+        ];
+        let words = ["run", "coupled_3d_limit_sink", "--json", "--out", "o", "--force"];
+        let sets = sets.iter().chain(more).flat_map(|set| ["--set", *set]);
+        scratch.bedload(words.into_iter().chain(sets)).exits(0).json()
+    };
+    let number = |found: &serde_json::Value, name: &str| found["results"][name]["value"].as_f64();
+    let (free, never) = (run(&[]), run(&["discrete.hold_creep=1e-12"]));
+    assert_eq!(number(&free, "held_below_m"), None);
+    assert_eq!(number(&never, "held_below_m"), Some(0.0));
+    // To look at the layers changes nothing.
+    assert_eq!(number(&free, "transport_rate_m2_s"), number(&never, "transport_rate_m2_s"));
+    let held = run(&["discrete.hold_creep=0.5"]);
+    assert!(number(&held, "held_below_m").unwrap() >= 6e-3, "{held}");
+    assert!(number(&held, "transport_rate_m2_s").unwrap() > 0.0);
+    for balance in held["balances"].as_array().unwrap() {
+        assert!(balance["relative"].as_f64().unwrap().abs() < 1e-12, "{balance}");
+    }
+}

@@ -38,7 +38,7 @@ fn explicit_steps_end_at_their_limits_and_diverge_beyond() {
     }
     // The implicit step has no such limit.
     for case in ["coupled_3d_limit_sink", "coupled_3d_limit_diffusion"] {
-        let (exit, _) = run(case, "discrete.coupling_period=60 ms", &["discrete.fluid_scheme=implicit"]);
+        let (exit, _) = run(case, "discrete.coupling_period=40 ms", &["discrete.fluid_scheme=implicit"]);
         assert_eq!(exit, 0, "{case}");
     }
 }

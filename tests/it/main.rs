@@ -2,6 +2,7 @@
 //! One binary, so that it links once.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod advise;
 mod architecture;
 mod calibrate;
 mod cases_bad;

@@ -1,0 +1,63 @@
+//! `bedload advise`: the least model, what can go, and the case that it writes.
+
+use crate::support::Scratch;
+
+#[test]
+fn the_least_model_follows_the_scene_and_the_tolerance() {
+    let scratch = Scratch::new();
+    for (case, tolerance, model) in [
+        ("laminar_1d_ouriemi", "0.05", "exact/ouriemi"),
+        ("laminar_1d_muiv", "0.05", "laminar"),
+        ("sheet_1d_sumer91", "0.05", "sheet-flow"),
+        ("coupled_3d_theta04_quick", "0.3", "sheet-flow"),
+        ("coupled_3d_theta04_quick", "0.15", "two-fluid"),
+        ("coupled_3d_theta04_quick", "0.05", "coupled"),
+        // At 0.2 kinetic theory misses half of the transport.
+        ("coupled_3d_theta02_quick", "0.15", "coupled"),
+        // Side walls are in no other model.
+        ("coupled_2d_exp20", "0.5", "coupled"),
+    ] {
+        let found = scratch.bedload(["advise", case, "--tolerance", tolerance, "--json"]).exits(0).json();
+        assert_eq!(found["model"], model, "{case} {tolerance}");
+    }
+}
+
+#[test]
+fn terms_are_judged_by_what_dropping_them_costs() {
+    let scratch = Scratch::new();
+    let term = |case: &str, set: &str, what: &str| {
+        let found = scratch.bedload(["advise", case, "--set", set, "--json"]).exits(0).json();
+        let terms = found["terms"].as_array().unwrap();
+        let term = terms.iter().find(|term| term["what"] == what).unwrap();
+        (term["keep"].as_bool().unwrap(), term["error"].as_f64())
+    };
+    let slip = "slip between the phases";
+    let (keep, error) = term("laminar_1d_ouriemi", "grains.diameter=1 mm", slip);
+    assert!(!keep && error.unwrap() < 1e-3, "{error:?}");
+    let (keep, error) = term("laminar_1d_ouriemi", "grains.diameter=9 mm", slip);
+    assert!(keep && error.unwrap() > 0.05, "{error:?}");
+    let (keep, error) = term("sheet_1d_type_b", "flow.shields=1.5", "suspension");
+    assert!(keep && error.unwrap() > 0.3, "{error:?}");
+}
+
+#[test]
+fn the_case_that_it_writes_runs_and_is_not_overwritten() {
+    let scratch = Scratch::new();
+    let words = ["advise", "coupled_3d_chassagne_quick", "--tolerance", "0.3", "--write", "least.toml"];
+    scratch.bedload(words).exits(0);
+    let found = scratch.bedload(["run", "least.toml", "--json"]).exits(0).json();
+    let rate = found["results"]["transport_rate_dimensionless"]["value"].as_f64().unwrap();
+    // The grains carry 2.38.
+    assert!((rate / 2.38 - 1.0).abs() < 0.25, "{rate}");
+    scratch.bedload(words).exits(2);
+    scratch.bedload(words.into_iter().chain(["--force"])).exits(0);
+}
+
+#[test]
+fn what_has_no_choice_is_said() {
+    let scratch = Scratch::new();
+    let found = scratch.bedload(["advise", "section_2d_square", "--json"]).exits(2).json();
+    assert_eq!(found["error"]["code"], "one-model", "{found}");
+    scratch.bedload(["advise", "sheet_1d_sumer91", "--tolerance", "0"]).exits(2);
+    scratch.bedload(["advise", "no_such_case"]).exits(2);
+}
