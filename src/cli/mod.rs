@@ -104,6 +104,9 @@ impl CaseArgs {
     }
 }
 
+/// What to do where there is no advice.
+const ADVISED: &str = "give a case of a flow over grains";
+
 /// How a verb ended, if not well.
 #[derive(Debug)]
 enum CliError {
@@ -115,6 +118,8 @@ enum CliError {
     Compare(CompareError),
     /// the study cannot be made: 2
     Study(StudyError),
+    /// there is no advice, or no case of it
+    Advise(AdviseError),
     /// the method failed, the folder says how: 3. The answer for `--json`
     Failed(ErrorReport, Option<Value>),
     /// some rows of a validation are red: 3
@@ -155,7 +160,7 @@ impl From<AdviseError> for CliError {
     fn from(error: AdviseError) -> Self {
         match error {
             AdviseError::Case(error) => Self::Case(error),
-            other => Self::Usage { message: other.to_string(), hint: "give a case of a flow over grains".into() },
+            other => Self::Advise(other),
         }
     }
 }
@@ -252,7 +257,7 @@ impl CliError {
 
     fn exit_code(&self) -> u8 {
         match self {
-            Self::Case(_) | Self::Compare(_) | Self::Study(_) | Self::Usage { .. } => 2,
+            Self::Case(_) | Self::Compare(_) | Self::Study(_) | Self::Advise(_) | Self::Usage { .. } => 2,
             Self::Output(error) => {
                 if error.is_refusal() {
                     2
@@ -281,6 +286,7 @@ impl CliError {
             Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
             Self::Compare(error) => one(error.code(), error.to_string(), Some(error.hint())),
             Self::Study(error) => one(error.code(), error.to_string(), Some(error.hint())),
+            Self::Advise(error) => one(error.code(), error.to_string(), Some(ADVISED.into())),
             Self::Failed(error, summary) => summary.unwrap_or_else(|| json!({ "status": "failed", "error": error })),
             Self::Stopped(summary, _) => summary,
             Self::Usage { message, hint } => one("usage", message, Some(hint)),
@@ -301,6 +307,7 @@ impl CliError {
             }
             Self::Compare(error) => (format!("error: {error}"), Some(error.hint())),
             Self::Study(error) => (format!("error: {error}"), Some(error.hint())),
+            Self::Advise(error) => (format!("error: {error}"), Some(ADVISED.into())),
             Self::Usage { message, hint, .. } => (format!("error: {message}"), Some(hint)),
             Self::Io(error) => (format!("error: {error}"), None),
             Self::Quiet(_) => return Ok(()),

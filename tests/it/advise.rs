@@ -34,7 +34,7 @@ fn terms_are_judged_by_what_dropping_them_costs() {
     let slip = "slip between the phases";
     let (keep, error) = term("laminar_1d_ouriemi", "grains.diameter=1 mm", slip);
     assert!(!keep && error.unwrap() < 1e-3, "{error:?}");
-    let (keep, error) = term("laminar_1d_ouriemi", "grains.diameter=9 mm", slip);
+    let (keep, error) = term("laminar_1d_ouriemi", "grains.diameter=12 mm", slip);
     assert!(keep && error.unwrap() > 0.05, "{error:?}");
     let (keep, error) = term("sheet_1d_type_b", "flow.shields=1.5", "suspension");
     assert!(keep && error.unwrap() > 0.3, "{error:?}");
