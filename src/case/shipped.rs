@@ -121,7 +121,7 @@ pub fn find(name: &str) -> Option<&'static str> {
 /// Names of the shipped cases that take less than a second or so: the others follow many grains for long.
 pub fn quick() -> impl Iterator<Item = &'static str> {
     names().filter(|name| {
-        !["grains_", "coupled_", "kinetic_1d_settling", "kinetic_1d_start", "section_3d_"]
+        !["grains_", "coupled_", "kinetic_1d_settling", "kinetic_1d_start", "section_3d_", "sheet_1d_limit_pseudotime"]
             .iter()
             .any(|long| name.starts_with(long))
     })

@@ -147,8 +147,10 @@ fn one(scene: Scene) -> Judged {
 
 /// What the advised model makes of the scene; grains are not run: they are the truth there, with its error and time.
 fn advised(scene: &Scene, least: &Least, set: &[String], answer: &dyn Fn(&str, Found) -> Answer) -> Answer {
-    if let (Truth::Known(_, _, Some(run)), "coupled") = (scene.truth, least.kind) {
-        return answer(least.kind, Ok(run));
+    if let (Truth::Known(value, error, Some(run)), "coupled") = (scene.truth, least.kind) {
+        // A run that is the truth is as good as that is known.
+        let Answer { name, found } = answer(least.kind, Ok(run));
+        return Answer { name, found: found.map(|(deviation, time)| (deviation.max((error / value).abs()), time)) };
     }
     let found = match &least.overrides {
         Some(overrides) => solve(least.template, overrides, scene.quantity),

@@ -82,8 +82,7 @@ fn the_shipped_cases_hold_what_they_claim() {
     assert_eq!((&json["status"], &json["red"]), (&"done".into(), &0.into()));
     let rows = json["rows"].as_array().unwrap();
     for case in shipped::quick() {
-        let later = shipped::find(case).unwrap().contains("[limit]");
-        assert!(later || rows.iter().any(|row| row["case"] == case), "{case} claims nothing");
+        assert!(rows.iter().any(|row| row["case"] == case), "{case} claims nothing");
     }
     let said = scratch.bedload(["validate"]).exits(0).out;
     let findings = rows.iter().filter(|row| row["kind"] == "finding").count();
