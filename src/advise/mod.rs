@@ -5,13 +5,14 @@
 //! the transport rate is the error that dropping it costs. For grains, which take minutes, the threshold that the source gives decides.
 //! Thresholds are of the papers that the sources name, or measured here (docs/coupled.md).
 
+mod flow;
 mod laminar;
 mod turbulent;
 
 use crate::case::CaseError;
 use crate::problem::{Model, Problem};
 use crate::result::quantity as q;
-use crate::result::{Quiet, Results};
+use crate::result::{Failure, Quiet, Results};
 use crate::units::significant;
 
 /// A number that describes the scene.
@@ -76,8 +77,14 @@ pub enum AdviseError {
         /// the model
         model: String,
     },
-    /// the case of the advised model is refused
-    #[error("no case of {kind} can be written for this scene: {reason}")]
+    /// there is no such flow
+    #[error("there is nothing to advise on: {reason}")]
+    NoFlow {
+        /// why
+        reason: String,
+    },
+    /// the case of the advised model is refused, or fails
+    #[error("no case of {kind} serves this scene: {reason}")]
     NoCase {
         /// the model
         kind: &'static str,
@@ -93,7 +100,20 @@ impl AdviseError {
         match self {
             Self::Case(_) => "case",
             Self::OneModel { .. } => "one-model",
+            Self::NoFlow { .. } => "no-flow",
             Self::NoCase { .. } => "no-case",
+        }
+    }
+}
+
+impl AdviseError {
+    /// What a user can do.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Case(_) | Self::OneModel { .. } => "give a case of a steady flow over grains",
+            Self::NoFlow { .. } => "lower the drive or the slope",
+            Self::NoCase { .. } => "a smaller --tolerance asks for the next better model",
         }
     }
 }
@@ -108,9 +128,11 @@ pub fn advise(case: &str, overrides: &[String], tolerance: f64) -> Result<Advice
     match &problem.model {
         Model::Ouriemi(bed) => Ok(laminar::advise(&scene, bed, true)),
         Model::Laminar(bed) => Ok(laminar::advise(&scene, &bed.bed, false)),
-        Model::SheetFlow(flow) => Ok(turbulent::advise(&scene, &turbulent::of_sheet_flow(flow, &problem))),
-        Model::Coupled(flow) => Ok(turbulent::advise(&scene, &turbulent::of_grains(flow))),
-        Model::TwoFluid(flow) => Ok(turbulent::advise(&scene, &turbulent::of_two_fluids(flow))),
+        Model::SheetFlow(sheet) => turbulent::advise(&scene, &flow::of_sheet_flow(sheet, &problem)?),
+        Model::Coupled(grains) => turbulent::advise(&scene, &flow::of_grains(grains)),
+        Model::TwoFluid(fluids) if flow::is_steady_in_water(fluids) => {
+            turbulent::advise(&scene, &flow::of_two_fluids(fluids))
+        }
         _ => Err(AdviseError::OneModel { model: problem.kind.into() }),
     }
 }
@@ -124,15 +146,21 @@ impl Advice {
         let Some(overrides) = &self.least.overrides else { return Ok(None) };
         let title = format!("case.title=The least model of a scene: {}", self.least.kind);
         let overrides = [&overrides[..], &[title]].concat();
-        let (case, _) = Problem::load(self.least.template, &overrides).map_err(|error| {
+        let (case, problem) = Problem::load(self.least.template, &overrides).map_err(|error| {
             let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
             AdviseError::NoCase { kind: self.least.kind, reason }
         })?;
+        // A continuum takes milliseconds: what is written has a solution.
+        if self.least.kind != "coupled" {
+            let no_case =
+                |failure: Failure| AdviseError::NoCase { kind: self.least.kind, reason: failure.error.to_string() };
+            crate::run(&problem, &mut Quiet).map_err(no_case)?;
+        }
         // The claims of the template are not those of this scene.
         let resolved = case.resolved();
         let own = resolved.split("[[check]]").next().unwrap_or(&resolved).trim_end();
         Ok(Some(format!(
-            "# Written by `bedload advise`: the least model that serves, from {}.\n{own}\n",
+            "# Written by `bedload advise`: the least model that serves, from {}, whose constants of the laws it has.\n{own}\n",
             self.least.template
         )))
     }

@@ -1,16 +1,7 @@
 //! Advice on a turbulent flow over a bed: nothing, grains, two fluids or sheet flow; suspension, eddies, viscosity.
 
-use std::f64::consts::PI;
-
-use super::{Advice, Least, Number, Scene, Term, share};
-use crate::case::grain_tables::Bottom;
-use crate::closures::contact::LinearSpring;
-use crate::closures::fluctuation::Fluctuation;
-use crate::closures::mixture_viscosity::MixtureViscosity;
-use crate::closures::suspension::Suspension;
-use crate::problem::{Coupled, Problem, SheetFlow, Surface, TwoFluid};
-use crate::result::Quiet;
-use crate::result::quantity as q;
+use super::flow::{PACKED, Turbulent};
+use super::{Advice, AdviseError, Least, Number, Scene, Term, share};
 use crate::units::significant;
 
 const MAURIN: &str = "Maurin et al. (2015); docs/coupled.md";
@@ -21,161 +12,21 @@ const ONSET: f64 = 0.045;
 /// Shields number from which eddies make no difference to grains (docs/coupled.md: from 0.1 on the rates agree).
 const EDDIES: f64 = 0.1;
 /// From here on grains collide, and the bed moves as a sheet.
-const COLLISIONS: f64 = 0.2;
+pub(super) const COLLISIONS: f64 = 0.2;
 const SHEET: f64 = 0.5;
 /// Largest deviation of sheet flow from the grains, 20 to 25.2 % more transport at Shields numbers from 0.2 to 1 (docs/kinetic.md).
 const SHEET_FLOW: f64 = 0.26;
 /// Largest deviation of two colliding fluids from the grains, -4 to +14 % from this Shields number on, to 1 (docs/kinetic.md). Below,
 /// at 0.2, they miss more than half of the transport.
 const TWO_FLUIDS: (f64, f64) = (0.4, 0.15);
+/// Stiffness over weight and size of a grain, k_n/((rho_p - rho_f) g d^2), of the reference flow of the grains.
+const STIFFNESS: f64 = 1e4 / (1500.0 * 9.81 * 6e-3 * 6e-3);
+/// Grain Reynolds number below which a flow is viscous.
+const VISCOUS: f64 = 5.0;
 /// Layers of a dense continuum.
 const MANY: f64 = 6.0;
-/// Solid fraction of a packed bed, and of what moves.
-const PACKED: f64 = 0.6;
-
-/// What matters of a turbulent scene. All values SI.
-pub(super) struct Turbulent {
-    rho_f: f64,
-    rho_p: f64,
-    nu: f64,
-    d: f64,
-    g: f64,
-    /// depth of the water
-    depth: f64,
-    sine: f64,
-    theta: f64,
-    mu_s: f64,
-    /// fall velocity if the case gives it
-    settling: Option<f64>,
-    /// whether a suspension and a viscosity of the mixture are in the case; `None` in a model of grains
-    continuum: Option<(bool, bool)>,
-    grains: Option<Grains>,
-    /// `kind` of the model of the case
-    kind: &'static str,
-}
-
-/// What only grains have.
-struct Grains {
-    contact: LinearSpring,
-    eddies: bool,
-    walls: bool,
-    size: [f64; 2],
-    layers: f64,
-    slice: bool,
-}
-
-pub(super) fn of_sheet_flow(flow: &SheetFlow, problem: &Problem) -> Turbulent {
-    let solved = crate::run(problem, &mut Quiet).ok().map(|outcome| outcome.results);
-    let result = |name: &str| solved.as_ref().and_then(|results| results.get(name));
-    let theta = flow.tau_b.map(|tau| tau / flow.stress_scale()).or(result(q::SHIELDS.name)).unwrap_or(f64::NAN);
-    let depth = flow.height - flow.level;
-    let sine =
-        flow.sine.or(result(q::SLOPE_SINE.name)).unwrap_or(theta * flow.stress_scale() / (flow.rho_f * flow.g * depth));
-    Turbulent {
-        rho_f: flow.rho_f,
-        rho_p: flow.rho_p,
-        nu: flow.eta / flow.rho_f,
-        d: flow.d,
-        g: flow.g,
-        depth,
-        sine,
-        theta,
-        mu_s: flow.friction.mu_s,
-        settling: match flow.suspension {
-            Suspension::Rouse(law) => Some(law.settling_velocity),
-            Suspension::None => None,
-        },
-        continuum: Some((
-            !matches!(flow.suspension, Suspension::None),
-            !matches!(flow.viscosity, MixtureViscosity::Clear),
-        )),
-        grains: None,
-        kind: "sheet-flow",
-    }
-}
-
-pub(super) fn of_two_fluids(flow: &TwoFluid) -> Turbulent {
-    Turbulent {
-        rho_f: flow.rho_f,
-        rho_p: flow.rho_p,
-        nu: flow.eta / flow.rho_f,
-        d: flow.d,
-        g: flow.g,
-        depth: flow.depth,
-        sine: flow.beta.sin(),
-        theta: flow.shields(),
-        mu_s: flow.mu_p,
-        settling: None,
-        continuum: None,
-        grains: None,
-        kind: "two-fluid",
-    }
-}
-
-pub(super) fn of_grains(flow: &Coupled) -> Turbulent {
-    let bed = &flow.bed;
-    let across = if bed.side_walls { bed.size[1].min(bed.d) } else { bed.size[1] };
-    let volume = bed.mobile as f64 * PI / 6.0 * bed.d.powi(3);
-    let thickness = volume / (PACKED * bed.size[0] * across.max(bed.size[1]));
-    let depth = match flow.surface {
-        Surface::Depth(depth) => depth,
-        Surface::Height(height) => height - thickness,
-    };
-    Turbulent {
-        rho_f: flow.rho_f,
-        rho_p: bed.rho_p,
-        nu: flow.nu(),
-        d: bed.d,
-        g: bed.g,
-        depth,
-        sine: bed.beta.sin(),
-        theta: flow.rho_f * bed.g * depth * bed.beta.sin() / flow.stress_scale(),
-        mu_s: bed.contact.mu,
-        settling: None,
-        continuum: None,
-        grains: Some(Grains {
-            contact: bed.contact,
-            eddies: !matches!(flow.fluctuation, Fluctuation::None),
-            walls: bed.side_walls,
-            size: bed.size,
-            layers: thickness / bed.d,
-            slice: bed.bottom == Bottom::Slice,
-        }),
-        kind: "coupled",
-    }
-}
 
 impl Turbulent {
-    /// Whether the Shields number is that or more: thresholds are not known to the per cent.
-    fn at_least(&self, threshold: f64) -> bool {
-        self.theta >= 0.99 * threshold
-    }
-
-    fn excess(&self) -> f64 {
-        self.rho_p / self.rho_f - 1.0
-    }
-
-    fn u_star(&self) -> f64 {
-        (self.theta * self.excess() * self.g * self.d).sqrt()
-    }
-
-    /// Fall velocity [m/s]: that of the case, else of a sphere with the drag 0.4 + 24.4/Re.
-    fn fall(&self) -> f64 {
-        let (c, viscous) = (0.4, 24.4 * self.nu / self.d);
-        let weight = 4.0 / 3.0 * self.excess() * self.g * self.d;
-        self.settling.unwrap_or(((viscous * viscous + 4.0 * c * weight).sqrt() - viscous) / (2.0 * c))
-    }
-
-    /// Share of the weight of the moving bed along the slope in what drives it.
-    fn weight(&self) -> f64 {
-        (1.0 / self.excess() + PACKED) * self.sine / (self.mu_s * PACKED)
-    }
-
-    /// Thickness of the moving layer over d: Revil-Baudard & Chauchat (2013), eq. (32).
-    fn layers(&self) -> f64 {
-        self.theta / (self.mu_s * PACKED * (1.0 - self.weight())).max(1e-12)
-    }
-
     fn numbers(&self) -> Vec<Number> {
         let number = |name, value: f64, says: String| Number { name, value, says };
         let ratio = self.fall() / self.u_star();
@@ -246,8 +97,10 @@ impl Turbulent {
             return least("exact/log-law", "exact_1d_loglaw", because, values);
         }
         let walls = self.grains.as_ref().is_some_and(|grains| grains.walls);
-        let suspended = self.fall() < self.u_star();
-        if !walls && (suspended || self.at_least(COLLISIONS) && tolerance >= SHEET_FLOW) {
+        let suspended = self.settling.is_some() && self.fall() < self.u_star()
+            || self.u_star() * self.d / self.nu > VISCOUS && self.fall() < self.u_star();
+        let known = !walls && self.is_measured();
+        if !walls && (suspended || known && self.at_least(COLLISIONS) && tolerance >= SHEET_FLOW) {
             let because = if suspended {
                 format!("θ = {theta} and grains in suspension, which no other model has")
             } else {
@@ -259,15 +112,17 @@ impl Turbulent {
             let values = [self.matter(), slope, fall, self.heights()].concat();
             return least("sheet-flow", "sheet_1d_theta06", because, values);
         }
-        if !walls && self.at_least(TWO_FLUIDS.0) && tolerance >= TWO_FLUIDS.1 {
+        if known && self.at_least(TWO_FLUIDS.0) && tolerance >= TWO_FLUIDS.1 {
             let off = share(TWO_FLUIDS.1);
             let because = format!("θ = {theta}, and {} is enough: it is within {off} of the grains", share(tolerance));
             let flow = vec![
                 format!("bed.thickness={:?}", 2.5 * self.layers().max(5.0) * self.d),
                 format!("flow.shields={:?}", self.theta),
                 format!("flow.slope={:?}", self.sine),
-                format!("grains.friction={:?}", self.mu_s),
             ];
+            let contacts =
+                self.contacts.map(|(mu, e)| [format!("grains.friction={mu:?}"), format!("grains.restitution={e:?}")]);
+            let flow = [flow, contacts.map(Vec::from).unwrap_or_default()].concat();
             return least("two-fluid", "kinetic_1d_theta06", because, [self.matter(), flow].concat());
         }
         let because = if walls {
@@ -275,14 +130,18 @@ impl Turbulent {
         } else if !self.at_least(COLLISIONS) {
             format!("θ = {theta} < {COLLISIONS}: single grains move, no continuum holds")
         } else {
-            format!("θ = {theta}, and no continuum is within {} of the grains", share(tolerance))
+            format!("θ = {theta}, and no continuum is known to be within {} of the grains here", share(tolerance))
         };
         let flow = vec![
             format!("flow.depth={:?}", self.depth),
             format!("flow.slope={:?}", self.sine),
             format!("flow.length={:?}", 30.0 * self.d),
             format!("flow.width={:?}", 30.0 * self.d),
+            format!("closures.contact.k_n={:?}", STIFFNESS * (self.rho_p - self.rho_f) * self.g * self.d * self.d),
         ];
+        let contacts =
+            self.contacts.map(|(mu, e)| [format!("closures.contact.mu={mu:?}"), format!("closures.contact.e_n={e:?}")]);
+        let flow = [flow, contacts.map(Vec::from).unwrap_or_default()].concat();
         least("coupled", "coupled_3d_chassagne_quick", because, [self.matter(), flow].concat())
     }
 
@@ -292,6 +151,7 @@ impl Turbulent {
             format!("fluid.viscosity={:?}", self.nu * self.rho_f),
             format!("grains.diameter={:?}", self.d),
             format!("grains.density={:?}", self.rho_p),
+            format!("flow.gravity={:?}", self.g),
         ]
     }
 
@@ -305,13 +165,21 @@ impl Turbulent {
 fn regime(theta: f64) -> &'static str {
     match theta {
         t if t < ONSET => "nothing moves",
-        t if t < COLLISIONS => "single grains roll and jump",
+        t if t < 0.99 * COLLISIONS => "single grains roll and jump",
         t if t < SHEET => "layers of colliding grains",
         _ => "sheet flow",
     }
 }
 
-pub(super) fn advise(scene: &Scene<'_>, flow: &Turbulent) -> Advice {
+pub(super) fn advise(scene: &Scene<'_>, flow: &Turbulent) -> Result<Advice, AdviseError> {
+    let weight = flow.weight();
+    if !(flow.theta.is_finite() && weight < 1.0) {
+        let share = significant(weight, 3);
+        let reason = format!(
+            "no bed rests on this slope: what pulls grains and water down it is {share} of what friction holds"
+        );
+        return Err(AdviseError::NoFlow { reason });
+    }
     let mut terms = Vec::new();
     if let Some((suspension, viscosity)) = flow.continuum {
         if suspension {
@@ -378,5 +246,5 @@ pub(super) fn advise(scene: &Scene<'_>, flow: &Turbulent) -> Advice {
             });
         }
     }
-    Advice { numbers: flow.numbers(), least: flow.least(scene.tolerance), terms }
+    Ok(Advice { numbers: flow.numbers(), least: flow.least(scene.tolerance), terms })
 }

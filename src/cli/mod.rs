@@ -104,9 +104,6 @@ impl CaseArgs {
     }
 }
 
-/// What to do where there is no advice.
-const ADVISED: &str = "give a case of a flow over grains";
-
 /// How a verb ended, if not well.
 #[derive(Debug)]
 enum CliError {
@@ -286,7 +283,7 @@ impl CliError {
             Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
             Self::Compare(error) => one(error.code(), error.to_string(), Some(error.hint())),
             Self::Study(error) => one(error.code(), error.to_string(), Some(error.hint())),
-            Self::Advise(error) => one(error.code(), error.to_string(), Some(ADVISED.into())),
+            Self::Advise(error) => one(error.code(), error.to_string(), Some(error.hint().into())),
             Self::Failed(error, summary) => summary.unwrap_or_else(|| json!({ "status": "failed", "error": error })),
             Self::Stopped(summary, _) => summary,
             Self::Usage { message, hint } => one("usage", message, Some(hint)),
@@ -307,7 +304,7 @@ impl CliError {
             }
             Self::Compare(error) => (format!("error: {error}"), Some(error.hint())),
             Self::Study(error) => (format!("error: {error}"), Some(error.hint())),
-            Self::Advise(error) => (format!("error: {error}"), Some(ADVISED.into())),
+            Self::Advise(error) => (format!("error: {error}"), Some(error.hint().into())),
             Self::Usage { message, hint, .. } => (format!("error: {message}"), Some(hint)),
             Self::Io(error) => (format!("error: {error}"), None),
             Self::Quiet(_) => return Ok(()),

@@ -42,7 +42,7 @@ impl Stability {
             overrides: self.case.overrides.clone(),
             over,
             tolerance,
-            predicted: own.map(|limit| limit.expect),
+            predicted: own.filter(|_| self.case.overrides.is_empty()).map(|limit| limit.expect),
         };
         let (plan, judge) = stability::plan(&request)?;
         self.study.conduct(&self.case, &plan, judge, &options)

@@ -318,7 +318,8 @@ impl<C: ContactLaw> Engine<C> {
 
     /// Holds the grains whose centres are below `level` [m], and lets the others go, but for the first `fixed` of the scene. What held
     /// grains had of kinetic energy and momentum goes to the ground; springs between two of them are forgotten.
-    pub fn hold_below(&mut self, level: f64, fixed: usize) {
+    /// Whether any was held or let go.
+    pub fn hold_below(&mut self, level: f64, fixed: usize) -> bool {
         let mut changed = false;
         for i in (0..self.grains.len()).filter(|&i| self.grains.ids[i] as usize >= fixed) {
             let (below, held) = (self.grains.position(i)[2] < level, self.grains.is_fixed(i));
@@ -341,6 +342,7 @@ impl<C: ContactLaw> Engine<C> {
         if changed {
             self.rebuild();
         }
+        changed
     }
 
     /// The account of energies and momentum begins again now.

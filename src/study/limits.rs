@@ -148,11 +148,22 @@ fn takes_whole_numbers(request: &Request, key: &str) -> bool {
     value.is_some_and(|value| value.is_integer())
 }
 
-/// The first limit along the one key of a request, without a folder; `None` if nothing changes.
+/// What is found along a key.
+#[derive(Clone, Debug)]
+pub enum Along {
+    /// the first limit
+    Ends(Limit),
+    /// every value holds
+    Holds,
+    /// none does, the first for this reason
+    Fails(String),
+}
+
+/// The first limit along the one key of a request, without a folder.
 ///
 /// # Errors
 /// [`StudyError::BadOver`] with what is wrong in the argument.
-pub fn first(request: &Request) -> Result<Option<Limit>, StudyError> {
+pub fn first(request: &Request) -> Result<Along, StudyError> {
     let bad = |reason: &str| StudyError::BadOver { argument: request.over.join(" --over "), reason: reason.into() };
     let [over] = &request.over[..] else { return Err(bad("one key")) };
     let varied = parse(over)?;
@@ -164,11 +175,15 @@ pub fn first(request: &Request) -> Result<Option<Limit>, StudyError> {
             && (known.class == Class::Holds) != (found.class == Class::Holds)
         {
             let ends = [(*before, known), (number, &found)];
-            return Ok(Some(bisect(request, (&varied.key, unit), &[], ends, HALVINGS)));
+            return Ok(Along::Ends(bisect(request, (&varied.key, unit), &[], ends, HALVINGS)));
         }
         last = Some((number, found));
     }
-    Ok(None)
+    Ok(match last {
+        Some((_, Found { class: Class::Holds, .. })) => Along::Holds,
+        Some((_, Found { reason, .. })) => Along::Fails(reason),
+        None => Along::Holds,
+    })
 }
 
 /// The limits between neighbours of a series, each bisected.

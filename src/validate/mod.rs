@@ -11,7 +11,7 @@ use crate::plot::{Axis, Curve, Dash, Figure, Marker, Panel};
 use crate::problem::Problem;
 use crate::result::{Failure, Outcome, Provenance, Watch, quantity};
 use crate::study::StudyError;
-use crate::study::limits;
+use crate::study::limits::{self, Along};
 use crate::study::stability::Request;
 use crate::units::significant;
 
@@ -107,14 +107,25 @@ fn limit_row(path: &str, case: &str, limit: &Limit) -> Result<Row, ValidateError
         predicted: Some(limit.expect),
     };
     let found = match limits::first(&request)? {
-        None => Err(format!("no limit in {}", limit.over)),
-        Some(found) if found.class != limit.beyond => {
-            Err(format!("{} beyond it: {}", found.class.name(), found.reason))
+        Along::Holds => Err(format!("every value of {} holds", limit.over)),
+        Along::Fails(reason) => return Ok(red(case, limit, &format!("no value holds: {reason}"))),
+        Along::Ends(found) if found.class != limit.beyond => {
+            return Ok(red(case, limit, &format!("{} beyond it: {}", found.class.name(), found.reason)));
         }
-        Some(found) => Ok(found.holds),
+        Along::Ends(found) => Ok(found.holds),
     };
+    Ok(judged(case, &claim(limit), found))
+}
+
+/// A limit that is not found as it is claimed is red, whatever its kind.
+fn red(case: &str, limit: &Limit, reason: &str) -> Row {
+    Row { verdict: Verdict::Red, ..judged(case, &claim(limit), Err(reason.into())) }
+}
+
+/// What a limit claims, as a row.
+fn claim(limit: &Limit) -> Check {
     let key = limit.over.split('=').next().unwrap_or_default();
-    let check = Check {
+    Check {
         quantity: format!("limit of {key}"),
         at: None,
         expect: limit.expect,
@@ -122,8 +133,7 @@ fn limit_row(path: &str, case: &str, limit: &Limit) -> Result<Row, ValidateError
         kind: limit.kind,
         source: format!("{}; {} beyond it", limit.source, limit.beyond.name()),
         tier: limit.tier,
-    };
-    Ok(judged(case, &check, found))
+    }
 }
 
 fn row(case: &str, check: &Check, outcome: &Result<Outcome, Failure>) -> Row {

@@ -304,6 +304,17 @@ pub const SCENES: &[Scene] = &[
         kept: None,
     },
     Scene {
+        name: "spheres on a slope of 0.1 under 3 d of water, roughly",
+        case: "coupled_3d_shields_quick",
+        set: &[],
+        tolerance: 0.3,
+        quantity: RATE,
+        truth: Truth::Known(0.321, 0.0061, Some((0.321, 60.0))),
+        source: "grains of this engine, 10 d by 10 d, 12 s",
+        rivals: &[rival(SHEET, "sheet_1d_theta06", &["flow.slope=0.0995", "flow.height=93 mm"])],
+        kept: None,
+    },
+    Scene {
         name: "narrow flume, beads",
         case: "coupled_2d_exp20",
         set: &[],

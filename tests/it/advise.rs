@@ -14,6 +14,8 @@ fn the_least_model_follows_the_scene_and_the_tolerance() {
         ("coupled_3d_theta04_quick", "0.05", "coupled"),
         // At 0.2 kinetic theory misses half of the transport.
         ("coupled_3d_theta02_quick", "0.15", "coupled"),
+        // Sheet flow was measured on gentle slopes under deep water alone.
+        ("coupled_3d_shields_quick", "0.3", "coupled"),
         // Side walls are in no other model.
         ("coupled_2d_exp20", "0.5", "coupled"),
     ] {
@@ -58,6 +60,26 @@ fn what_has_no_choice_is_said() {
     let scratch = Scratch::new();
     let found = scratch.bedload(["advise", "section_2d_square", "--json"]).exits(2).json();
     assert_eq!(found["error"]["code"], "one-model", "{found}");
+    for case in ["two_fluid_1d_avalanche", "kinetic_1d_waves", "kinetic_1d_settling"] {
+        let found = scratch.bedload(["advise", case, "--json"]).exits(2).json();
+        assert_eq!(found["error"]["code"], "one-model", "{found}");
+    }
+    let steep = ["advise", "sheet_1d_limit_slope_a", "--set", "flow.slope=0.1", "--json"];
+    assert_eq!(scratch.bedload(steep).exits(2).json()["error"]["code"], "no-flow");
+    // Contacts, gravity and all go with the scene.
+    let set = [
+        "--set",
+        "flow.gravity=1.62",
+        "--set",
+        "grains.restitution=0.9",
+        "--tolerance",
+        "0.05",
+        "--write",
+        "moon.toml",
+    ];
+    scratch.bedload(["advise", "kinetic_1d_theta06"].into_iter().chain(set)).exits(0);
+    let case = scratch.read("moon.toml");
+    assert!(case.contains("gravity = 1.62") && case.contains("e_n = 0.9") && case.contains("mu = 0.4"), "{case}");
     scratch.bedload(["advise", "sheet_1d_sumer91", "--tolerance", "0"]).exits(2);
     scratch.bedload(["advise", "no_such_case"]).exits(2);
 }

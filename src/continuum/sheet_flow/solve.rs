@@ -262,7 +262,8 @@ impl Column {
         let last = self.mesh.cells() - 1;
         let pressure = super::linear::local_cell(&self.flow, &self.mesh, state, last).pressure.value;
         let grains = state.r(last) * pressure;
-        grains / (grains + state.s(last))
+        let share = grains / (grains + state.s(last));
+        if share.is_finite() { share } else { 0.0 }
     }
 
     /// Solid volume over the lowest place where the grains carry just mu_s P_p; `None` if they carry more down to the bottom.

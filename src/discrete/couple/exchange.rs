@@ -60,6 +60,8 @@ pub struct Exchange {
     pub(super) worst: f64,
     /// whether the fluid is stepped forward
     explicit: bool,
+    /// longest stable explicit step of the fluid in the last period [s]
+    bearable: f64,
     /// slope of the drag on a mobile grain over its mass, where that is largest [1/s]
     steepest: f64,
     /// solid volume that crosses a unit of width in a unit of time [m2/s]
@@ -105,6 +107,7 @@ impl Exchange {
             totals: [Sum::default(); 2],
             worst: 0.0,
             explicit: flow.fluid_scheme == FluidScheme::Explicit,
+            bearable: f64::INFINITY,
             steepest: 0.0,
             rate: 0.0,
             volumes: Vec::new(),
@@ -145,7 +148,7 @@ impl Exchange {
     /// Longest stable step of the fluid [s] if it is stepped forward.
     #[must_use]
     pub fn fluid_limit(&self) -> Option<f64> {
-        self.explicit.then(|| self.column.explicit_limit(&self.medium))
+        self.explicit.then_some(self.bearable)
     }
 
     /// Averages the grains over the cells: solid fraction and velocity, drag and its slope at the present velocities, and the
@@ -213,10 +216,14 @@ impl Exchange {
         self.expand(&before, owed);
         let dt = period / f64::from(steps);
         let mut taken = vec![0.0; before.len()];
+        self.bearable = f64::INFINITY;
         for _ in 0..steps {
             let step = if self.explicit { FluidColumn::step_explicit } else { FluidColumn::step };
             let balance = step(&mut self.column, &self.medium, &self.forcing, dt)?.balance;
             self.worst = self.worst.max(relative(&balance));
+            if self.explicit {
+                self.bearable = self.bearable.min(self.column.explicit_limit(&self.medium));
+            }
             for (i, taken) in taken.iter_mut().enumerate() {
                 let change = self.column.velocity()[i] - before[i];
                 *taken += dt * self.height * (self.drag[0][i] + self.slope[0][i] * change);

@@ -30,6 +30,8 @@ pub struct Hold {
     fixed: usize,
     /// grains below are held [m]
     level: f64,
+    /// the highest of these levels so far [m]
+    highest: f64,
     /// centres of all grains at the last look, by name [m]
     then: Vec<Point>,
 }
@@ -47,6 +49,7 @@ impl Hold {
             periods: flow.bed.size,
             fixed: engine.grains().len() - flow.bed.mobile,
             level: 0.0,
+            highest: 0.0,
             then: Vec::new(),
         };
         let named = |i: usize| engine.grains().ids[i] as usize >= hold.fixed || engine.grains().is_fixed(i);
@@ -60,19 +63,24 @@ impl Hold {
         self.level
     }
 
+    /// Elevation below which contacts were not looked at, at some time [m]; `None` if all were.
+    pub fn blind(&self) -> Option<f64> {
+        (self.highest > 0.0).then_some(self.highest + 0.5 * self.d)
+    }
+
     fn remember<C: ContactLaw>(&mut self, engine: &Engine<C>) {
         let grains = engine.grains();
         self.then = grains.places().into_iter().map(|i| grains.position(i)).collect();
     }
 
-    /// Looks at the layers after period `made`, if it is time to.
-    pub fn look<C: ContactLaw>(&mut self, made: u64, engine: &mut Engine<C>) {
+    /// Looks at the layers after period `made`, if it is time to; whether grains were held or let go.
+    pub fn look<C: ContactLaw>(&mut self, made: u64, engine: &mut Engine<C>) -> bool {
         if !made.is_multiple_of(self.every) {
-            return;
+            return false;
         }
         if made <= self.after {
             self.remember(engine);
-            return;
+            return false;
         }
         let grains = engine.grains();
         let mut layers: Vec<(f64, usize)> = Vec::new();
@@ -92,12 +100,15 @@ impl Hold {
         let still = |layer: &(f64, usize)| layer.1 >= FEW && layer.0 < self.creep * layer.1 as f64;
         let resting = layers.iter().take_while(|layer| still(layer)).count() as f64 * self.d;
         self.level = if resting > self.level { resting - self.d } else { (self.level - WOKEN * self.d).max(0.0) };
-        engine.hold_below(self.level, self.fixed);
+        self.highest = self.highest.max(self.level);
+        let changed = engine.hold_below(self.level, self.fixed);
         self.remember(engine);
+        changed
     }
 
     pub fn save(&self, to: &mut Writer) {
         to.number(self.level);
+        to.number(self.highest);
         for x in self.then.iter().flatten() {
             to.number(*x);
         }
@@ -111,6 +122,7 @@ impl Hold {
     ) -> Result<Option<Self>, CheckpointError> {
         let Some(mut hold) = Self::new(flow, engine) else { return Ok(None) };
         hold.level = from.number()?;
+        hold.highest = from.number()?;
         for x in hold.then.iter_mut().flatten() {
             *x = from.number()?;
         }

@@ -1,5 +1,6 @@
 //! What a coupled run reports: profiles with their errors, transport rate, Shields numbers, balances.
 
+use super::hold::Hold;
 use super::record::Known;
 use super::run::Run;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
@@ -17,7 +18,13 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let (flow, bed) = (run.flow, &run.flow.bed);
     let (first, over) = run.record.transient();
     let averages = run.averages.after(first);
-    let averaged = averages.profile();
+    let mut averaged = averages.profile();
+    let blind = run.hold.as_ref().and_then(Hold::blind);
+    if let Some(level) = blind {
+        let below = averaged.z.iter().take_while(|z| **z < level).count();
+        let columns = [&mut averaged.shear, &mut averaged.pressure, &mut averaged.flux, &mut averaged.contact_loss];
+        columns.into_iter().for_each(|column| column.iter_mut().take(below).for_each(|mean| *mean = None));
+    }
     let fluid = run.record.fluid(first);
     let mut results = Results::default();
     results.set(&q::GRAINS, bed.mobile as f64);
@@ -126,6 +133,14 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     }
     if !HINDRANCE_RANGE.contains(densest) {
         warn("drag/dallavalle-grain", HINDRANCE_RANGE.variable, densest, HINDRANCE_RANGE.to_string());
+    }
+    if let Some(level) = blind {
+        warn(
+            "contact/held",
+            "elevation below which contacts were held [m]",
+            level,
+            "stresses above it alone".to_owned(),
+        );
     }
     if !over {
         let range = "the transport rate settles in the first half".to_owned();

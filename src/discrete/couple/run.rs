@@ -183,6 +183,10 @@ impl<'a> Run<'a> {
         let frames = u64::from(self.flow.bed.discrete.frames);
         while self.made < self.periods {
             self.exchange.look(&self.engine, self.engine.settings().dt);
+            // What grains were given in the last period is booked before they are held.
+            if self.hold.as_mut().is_some_and(|hold| hold.look(self.made, &mut self.engine)) {
+                self.exchange.look(&self.engine, self.engine.settings().dt);
+            }
             self.rates += self.exchange.rate();
             limits::drag(self.flow, &self.engine, &self.exchange)?;
             for _ in 0..self.steps {
@@ -195,9 +199,6 @@ impl<'a> Run<'a> {
             self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps)?;
             limits::fluid(self.flow, &self.exchange)?;
             self.made += 1;
-            if let Some(hold) = &mut self.hold {
-                hold.look(self.made, &mut self.engine);
-            }
             let sample = self.made.is_multiple_of(self.sampled);
             if sample {
                 self.sample();

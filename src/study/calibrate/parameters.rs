@@ -41,7 +41,8 @@ impl Parameters {
         }
         let (mut numbers, others) = case.numbers();
         // What describes the file, the mesh or the method is no property of the scene.
-        let apart = |key: &str| ["case.", "check.", "grid.", "solver.", "output."].iter().any(|t| key.starts_with(t));
+        let apart =
+            |key: &str| ["case.", "check.", "limit.", "grid.", "solver.", "output."].iter().any(|t| key.starts_with(t));
         numbers.retain(|(key, _)| !apart(key));
         let (case, overrides) = (request.case.clone(), request.overrides.clone());
         let (keys, names, start) = (Vec::new(), Vec::new(), Vec::new());
