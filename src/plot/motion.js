@@ -84,11 +84,14 @@ class Film {
     const style = getComputedStyle(this.canvas);
     const room = this.canvas.parentElement.clientWidth;
     const scale = Math.min(room / this.shown, TALLEST / (this.high - this.low));
-    const [width, height, below] = [scale * this.shown, scale * (this.high - this.low), 26];
+    const [width, height] = [scale * this.shown, scale * (this.high - this.low)];
+    // Under a narrow picture the length has a line of its own.
+    const narrow = width < 480;
+    const [wide, below] = [Math.max(width, Math.min(room, 300)), narrow ? 44 : 26];
     const dense = devicePixelRatio || 1;
-    this.canvas.width = Math.round(dense * width);
+    this.canvas.width = Math.round(dense * wide);
     this.canvas.height = Math.round(dense * (height + below));
-    this.canvas.style.width = `${width}px`;
+    this.canvas.style.width = `${wide}px`;
     const to = this.canvas.getContext("2d");
     to.scale(dense, dense);
     const [picture, r] = [Math.min(Math.floor(this.at), this.pictures - 2), scale * this.radius];
@@ -116,7 +119,7 @@ class Film {
       }
     }
     to.restore();
-    const bar = Math.min(160, 0.3 * width);
+    const bar = Math.min(160, 0.3 * wide);
     for (let i = 0; i < 64; i++) {
       to.fillStyle = this.shades[i];
       to.fillRect(i / 64 * bar, height + 10, bar / 64 + 0.5, 8);
@@ -125,9 +128,9 @@ class Film {
     to.font = "12px system-ui, sans-serif";
     const velocity = u => (Math.abs(u) < 0.005 * this.fast ? "0" : u.toPrecision(2)).replace("-", "−");
     to.fillText(`velocity ${velocity(this.slow)} to ${velocity(this.fast)} m/s`, bar + 8, height + 18);
-    to.textAlign = "right";
+    to.textAlign = narrow ? "left" : "right";
     const whole = this.shown < this.length ? ` of the period of ${this.length.toPrecision(3)} m` : "";
-    to.fillText(`length ${this.shown.toPrecision(3)} m${whole}`, width, height + 18);
+    to.fillText(`length ${this.shown.toPrecision(3)} m${whole}`, narrow ? 0 : width, height + (narrow ? 36 : 18));
     this.slider.value = this.at;
     const slower = 1 / (RATE * this.interval);
     const pace = slower < 1 ? `${(1 / slower).toPrecision(2)} times faster` : `${slower.toPrecision(2)} times slower`;

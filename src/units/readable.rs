@@ -44,6 +44,8 @@ pub fn readable(value: f64, unit: &'static str) -> String {
 #[must_use]
 pub fn readable_mean(value: f64, error: f64, unit: &'static str) -> String {
     let (factor, symbol) = readable_unit(value, unit);
+    // An error of round-off is none.
+    let error = if error.abs() < 1e-9 * value.abs() { 0.0 } else { error };
     let (value, error) = (value * factor, error * factor);
     let exponent = error.abs().log10().floor();
     // Two digits of the error, unless that would be none of the value, or more than anyone reads.
@@ -68,6 +70,7 @@ mod tests {
         assert_eq!(readable_mean(2.0, 30.0, "1"), "2.000 ± 30");
         assert_eq!(readable_mean(0.0, 0.0, "1"), "0 ± 0");
         assert_eq!(readable_mean(5.0, 0.0, "1"), "5.000 ± 0");
+        assert_eq!(readable_mean(0.023_394_999, 1e-18, "m"), "23.39 ± 0 mm");
     }
 
     #[test]
