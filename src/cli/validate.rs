@@ -20,6 +20,9 @@ pub(super) struct Validate {
     /// Cases to validate; all shipped ones if left out
     #[arg(value_name = "CASE")]
     cases: Vec<String>,
+    /// The rows that take little time alone: the default
+    #[arg(long, conflicts_with = "full")]
+    quick: bool,
     /// Include the rows that take long
     #[arg(long)]
     full: bool,
@@ -36,7 +39,7 @@ pub(super) struct Validate {
 
 impl Validate {
     pub(super) fn execute(self) -> Result<(), CliError> {
-        let tier = if self.full { Tier::Full } else { Tier::Quick };
+        let tier = if self.full && !self.quick { Tier::Full } else { Tier::Quick };
         let rows = validate(&self.cases, tier, &mut Progress::new(self.json))?;
         let judged = if self.advice || self.full && self.cases.is_empty() { scenes::judge() } else { Vec::new() };
         let default = (self.full && self.cases.is_empty())
