@@ -79,6 +79,7 @@ impl Fault {
             Self::NoWidth => Some("remove it, or set flow.shape = \"rectangle\"".into()),
             Self::Slender { .. } => Some("shape = \"planes\" is the limit of a wide section".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
+            Self::LimitKey { .. } => Some("for example over = \"flow.slope=0.01:0.05:9\"".into()),
             Self::CheckLevel { column: true, .. } => Some("for example at = \"10 mm\"".into()),
             Self::CheckLevel { .. } => Some("remove it".into()),
             _ => None,

@@ -294,6 +294,15 @@ pub enum Fault {
         /// result that it may stand for
         nearest: Option<String>,
     },
+    /// A limit along something that is no key.
+    #[error("\"{over}\" is not table.key=values")]
+    LimitKey {
+        /// as written
+        over: String,
+    },
+    /// A limit beyond which the method holds.
+    #[error("beyond a limit a method does not hold")]
+    LimitHolds,
     /// A check of a column without a level, or of a result with one.
     #[error("{}", if *column { format!("the check of {name} needs `at`, the elevation") } else { format!("the check of {name} takes no `at`: it is one number") })]
     CheckLevel {
@@ -349,6 +358,8 @@ impl Fault {
             Self::LawMismatch { .. } => "law-mismatch",
             Self::RoughnessAboveFlow { .. } => "roughness-above-flow",
             Self::UnknownQuantity { .. } => "unknown-quantity",
+            Self::LimitKey { .. } => "limit-key",
+            Self::LimitHolds => "limit-holds",
             Self::CheckLevel { .. } => "check-level",
         }
     }

@@ -19,6 +19,7 @@ pub use shear_cell::ShearCell;
 pub use sheet::{BedReading, SheetFlow, SheetMethod};
 pub use two_fluid::{FluidStress, State, TwoFluid};
 
+use crate::case::checks::Class;
 use crate::case::{Case, CaseError, Fault, Scene};
 use crate::result::quantity;
 
@@ -170,8 +171,18 @@ impl Problem {
     }
 }
 
-/// Checks name catalogued results, or columns at a level.
+/// Checks name catalogued results, or columns at a level; a limit is along a key of a table of the case.
 fn checks(case: &Case, faults: &mut Vec<(String, Fault)>) {
+    if let Some(limit) = case.scene.limit() {
+        let key =
+            limit.over.split_once('=').and_then(|(key, values)| Some((key.trim().split_once('.')?, values.trim())));
+        if key.is_none_or(|((table, name), values)| table.is_empty() || name.is_empty() || values.is_empty()) {
+            faults.push(("limit.over".into(), Fault::LimitKey { over: limit.over.clone() }));
+        }
+        if limit.beyond == Class::Holds {
+            faults.push(("limit.beyond".into(), Fault::LimitHolds));
+        }
+    }
     for (i, check) in case.scene.checks().iter().enumerate() {
         let column = check.quantity.strip_prefix("profile.");
         let list = if column.is_some() { quantity::COLUMNS } else { quantity::RESULTS };

@@ -98,3 +98,20 @@ fn limits_that_fail_nothing_are_found_too() {
     };
     assert!(posed("flow.slope=21.6 deg") && !posed("flow.slope=21.7 deg"));
 }
+
+#[test]
+fn a_limit_that_cannot_be_one_is_refused() {
+    let scratch = Scratch::new();
+    for (set, code) in [
+        ("limit.over=bla", "limit-key"),
+        ("limit.over=slope=1:2:3", "limit-key"),
+        ("limit.beyond=holds", "limit-holds"),
+    ] {
+        let found = scratch.bedload(["check", "sheet_1d_limit_slope_a", "--set", set, "--json"]).exits(2).json();
+        assert_eq!(found["error"]["code"], code, "{set} {found}");
+    }
+    // A limit at which nothing holds is red, whatever it claims to be.
+    let case = bedload::case::shipped::find("kinetic_1d_limit_restitution").unwrap();
+    scratch.write("none.toml", case.replace("grains.restitution=0.1:0.9:5", "flow.nothing=1:2:3"));
+    scratch.bedload(["validate", "none.toml"]).exits(3);
+}
