@@ -234,6 +234,14 @@ pub fn iterate(
         state = column.iterate(state, pace, &mut history, &mut stop)?;
         change_of_type = column.change_of_type(&state);
     }
+    // Where a flow has a moving layer, its grains carry mu_s P_p and more; in locked ones none does.
+    let yields = (0..column.mesh.cells()).any(|c| state.r(c) > column.flow.friction.mu_s);
+    if !yields {
+        return Err(Stalled {
+            reason: Some(Reason::Locked(column.carried(&state))),
+            ..Stalled::new(0.0, history.len())
+        });
+    }
     Ok(Solved { column, state, exact: None, history, change_of_type })
 }
 
@@ -257,9 +265,11 @@ impl Column {
         (0..self.mesh.cells()).rev().find(negative).map_or(0.0, |c| state.m * self.mesh.nodes[c + 1])
     }
 
-    /// Share of the stress that the grains carry in the last of the cells of the moving grains.
+    /// Share of the stress that the grains carry in the last of the cells of the moving grains; of the whole bed, in the one with the
+    /// most mobilised friction.
     fn carried(&self, state: &State) -> f64 {
-        let last = self.mesh.cells() - 1;
+        let most = (0..self.mesh.cells()).max_by(|a, b| state.r(*a).total_cmp(&state.r(*b))).unwrap_or(0);
+        let last = if self.floor == Floor::Yield { self.mesh.cells() - 1 } else { most };
         let pressure = super::linear::local_cell(&self.flow, &self.mesh, state, last).pressure.value;
         let grains = state.r(last) * pressure;
         let share = grains / (grains + state.s(last));
