@@ -8,14 +8,14 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use bedload::case::Case;
-use bedload::continuum::sheet_flow::column::Setting;
-use bedload::continuum::sheet_flow::flow::Flow;
-use bedload::continuum::sheet_flow::iteration::Pace;
-use bedload::continuum::sheet_flow::layers::Layers;
-use bedload::continuum::sheet_flow::newton::Column;
-use bedload::continuum::sheet_flow::solve::{REST, solve};
-use bedload::problem::{Model, Problem};
+use bedload::model::{OnMesh, read};
+use bedload::models::sheet_flow::SheetFlow;
+use bedload::models::sheet_flow::column::Setting;
+use bedload::models::sheet_flow::flow::Flow;
+use bedload::models::sheet_flow::iteration::Pace;
+use bedload::models::sheet_flow::layers::Layers;
+use bedload::models::sheet_flow::newton::Column;
+use bedload::models::sheet_flow::solve::{REST, solve};
 
 const CASES: [&str; 6] = [
     "sheet_1d_sumer82",
@@ -39,9 +39,7 @@ const STAYS: usize = 20;
 
 fn scaled(case: &str, settings: &[&str]) -> Result<(Flow, Setting), Box<dyn std::error::Error>> {
     let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-    let Model::SheetFlow(sheet) = Problem::new(&Case::load(case, &settings)?)?.model else {
-        return Err(format!("{case} is no sheet flow").into());
-    };
+    let sheet = read::<OnMesh<SheetFlow>>(case, &settings)?.problem;
     Ok((Flow::scaled(&sheet), Setting::scaled(&sheet)))
 }
 

@@ -7,10 +7,9 @@
 use std::error::Error;
 use std::path::Path;
 
+use bedload::model::Context;
+use bedload::models;
 use bedload::plot::{Axis, Curve, Dash, Figure, Marker, Panel, png};
-use bedload::problem::Problem;
-use bedload::result::Quiet;
-use bedload::run;
 
 /// Thickness of the bed in diameters: more than moves in any run.
 const BED: f64 = 20.0;
@@ -71,8 +70,8 @@ fn ratio(run_of: &Run, shields: f64, changes: &[&str]) -> Result<f64, Box<dyn Er
         format!("flow.shields={shields}"),
     ];
     settings.extend(changes.iter().map(|&s| s.to_owned()));
-    let (_, problem) = Problem::load("laminar_1d_muiv", &settings).map_err(|e| format!("{e:?}"))?;
-    let results = run(&problem, &mut Quiet).map_err(|failure| failure.error.to_string())?.results;
+    let (_, problem) = models::builtin().load("laminar_1d_muiv", &settings).map_err(|e| format!("{e:?}"))?;
+    let results = Context::quiet(|context| problem.run(context)).map_err(|failure| failure.error.to_string())?.results;
     let get = |name: &str| results.get(name).ok_or_else(|| format!("no {name}"));
     Ok(get("transport_rate_m2_s")? / get("fluid_discharge_m2_s")?)
 }

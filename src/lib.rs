@@ -25,11 +25,11 @@
 //! | [`cli`] | the command line, one file per verb |
 //!
 //! ```
-//! use bedload::{case::Case, problem::Problem, result::Quiet, run};
+//! use bedload::{model::Context, models, result::Quiet};
 //!
-//! let case = Case::load("exact_1d_aussillous", &["flow.pressure_gradient=80 Pa/m".into()]).unwrap();
-//! let problem = Problem::new(&case).unwrap();
-//! let outcome = run(&problem, &mut Quiet).unwrap();
+//! let set = ["flow.pressure_gradient=80 Pa/m".to_owned()];
+//! let (_, problem) = models::builtin().load("exact_1d_aussillous", &set).unwrap();
+//! let outcome = problem.run(&mut Context::new(&mut Quiet)).unwrap();
 //! assert!(outcome.results.get("transport_rate_m2_s").unwrap() > 0.0);
 //! ```
 
@@ -39,18 +39,14 @@ pub mod cli;
 pub mod closures;
 pub mod column;
 pub mod compare;
-pub mod continuum;
-pub mod discrete;
+pub mod dem;
+pub mod model;
+pub mod models;
 pub mod numerics;
 pub mod output;
 pub mod plot;
-pub mod problem;
 pub mod result;
-mod run;
 pub mod runtime;
-pub mod section;
 pub mod study;
 pub mod units;
 pub mod validate;
-
-pub use run::{closures as laws, equations, run};

@@ -7,7 +7,7 @@ use bedload::result::Provenance;
 
 fn main() -> ExitCode {
     panic::set_hook(Box::new(explain_bug));
-    panic::catch_unwind(bedload::cli::execute).unwrap_or(ExitCode::FAILURE)
+    panic::catch_unwind(|| bedload::cli::execute(&bedload::models::builtin())).unwrap_or(ExitCode::FAILURE)
 }
 
 /// A panic is a bug, and says so.

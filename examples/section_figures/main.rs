@@ -10,8 +10,9 @@ use std::io;
 use std::ops::ControlFlow;
 use std::path::Path;
 
+use bedload::model::Context;
+use bedload::models;
 use bedload::plot::{Axis, Curve, Dash, Figure, Level, Map, MapPanel, Marker, Panel, map_png, png, section_map};
-use bedload::problem::Problem;
 use bedload::result::{Outcome, Profile, Quantity, Snapshot, Watch, quantity as q};
 
 type Fallible<T> = Result<T, Box<dyn Error>>;
@@ -35,9 +36,9 @@ impl Watch for Keep {
 /// Runs a shipped case with changes; its outcome and its table.
 fn run(case: &str, settings: &[&str]) -> Fallible<(Outcome, Vec<u8>)> {
     let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-    let (_, problem) = Problem::load(case, &settings).map_err(|e| e.render(false))?;
+    let (_, problem) = models::builtin().load(case, &settings).map_err(|e| e.render(false))?;
     let mut keep = Keep::default();
-    let outcome = bedload::run(&problem, &mut keep).map_err(|failure| failure.error.to_string())?;
+    let outcome = problem.run(&mut Context::new(&mut keep)).map_err(|failure| failure.error.to_string())?;
     Ok((outcome, keep.0))
 }
 

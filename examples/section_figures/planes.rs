@@ -2,11 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use bedload::continuum::exact::ouriemi;
+use bedload::closures::regularisation::{Regularisation, Smoothing};
+use bedload::model::{OnMesh, read};
+use bedload::models::exact::bed::LaminarBed;
+use bedload::models::exact::ouriemi;
+use bedload::models::section::duct::{Duct, Filling};
+use bedload::models::section::solve::Solution;
+use bedload::models::section::{Method, Outline, SectionMethod};
 use bedload::plot::{Axis, Dash, Level, Marker, Panel};
-use bedload::problem::{Method, Model, Outline, Problem, Regularisation, SectionMethod, Smoothing};
-use bedload::section::duct::{Duct, Filling};
-use bedload::section::solve::Solution;
 
 use super::{DASHED, Fallible, SOLID, curve, draw};
 
@@ -147,9 +150,8 @@ pub fn figure_3() -> Fallible<()> {
 /// The bed of section 3.2 of the paper, in both forms, with its closed form.
 fn planes_bed(slips: bool) -> Fallible<(Duct, ouriemi::Solution)> {
     let case = if slips { "exact_1d_ouriemi" } else { "exact_1d_ouriemi_mixed" };
-    let (_, problem) = Problem::load(case, &[]).map_err(|e| e.render(false))?;
-    let Model::Ouriemi(bed) = &problem.model else { return Err("another model".into()) };
-    let exact = ouriemi::solve(bed, |_| {}).map_err(|e| e.to_string())?;
+    let bed = read::<OnMesh<LaminarBed>>(case, &[]).map_err(|e| e.render(false))?.problem;
+    let exact = ouriemi::solve(&bed, |_| {}).map_err(|e| e.to_string())?;
     Ok((bed_between(Outline::Planes, slips), exact))
 }
 

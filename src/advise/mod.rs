@@ -5,14 +5,14 @@
 //! the transport rate is the error that dropping it costs. For grains, which take minutes, the threshold that the source gives decides.
 //! Thresholds are of the papers that the sources name, or measured here (docs/coupled.md).
 
-mod flow;
 mod laminar;
 mod turbulent;
 
 use crate::case::CaseError;
-use crate::problem::{Model, Problem};
+use crate::model::{self, Context, Flow, Offer, Registry, TermTest};
+
 use crate::result::quantity as q;
-use crate::result::{Failure, Quiet, Results};
+use crate::result::{Failure, Results};
 use crate::units::significant;
 
 /// A number that describes the scene.
@@ -46,6 +46,8 @@ pub struct Term {
 pub struct Least {
     /// `kind` of the model
     pub kind: &'static str,
+    /// whether its results are means of fluctuating quantities
+    pub stochastic: bool,
     /// why this one
     pub because: String,
     /// shipped case of that model, to start from
@@ -121,20 +123,40 @@ impl AdviseError {
 /// Advice for the scene of `case` with `overrides`: terms that change the transport rate by less than `tolerance` can go.
 ///
 /// # Errors
-/// [`AdviseError::Case`]; [`AdviseError::OneModel`] for cases that are no scene.
-pub fn advise(case: &str, overrides: &[String], tolerance: f64) -> Result<Advice, AdviseError> {
-    let (_, problem) = Problem::load(case, overrides).map_err(Box::new)?;
-    let scene = Scene { case, overrides, tolerance };
-    match &problem.model {
-        Model::Ouriemi(bed) => Ok(laminar::advise(&scene, bed, true)),
-        Model::Laminar(bed) => Ok(laminar::advise(&scene, &bed.bed, false)),
-        Model::SheetFlow(sheet) => turbulent::advise(&scene, &flow::of_sheet_flow(sheet, &problem)?),
-        Model::Coupled(grains) => turbulent::advise(&scene, &flow::of_grains(grains)),
-        Model::TwoFluid(fluids) if flow::is_steady_in_water(fluids) => {
-            turbulent::advise(&scene, &flow::of_two_fluids(fluids))
+/// [`AdviseError::Case`]; [`AdviseError::OneModel`] for cases that are no scene; [`AdviseError::NoFlow`].
+pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: f64) -> Result<Advice, AdviseError> {
+    let (_, problem) = registry.load(case, overrides).map_err(Box::new)?;
+    let no_flow = |failure: Failure| AdviseError::NoFlow { reason: failure.error.to_string() };
+    let Some(mut flow) = problem.solver().flow().map_err(no_flow)? else {
+        return Err(AdviseError::OneModel { model: problem.kind.into() });
+    };
+    let scene = Scene { registry, case, overrides, tolerance };
+    let numbers = match &flow {
+        Flow::Laminar(bed) => laminar::numbers(bed, scene.solve(&[]).as_ref()),
+        Flow::Turbulent(bed) if bed.theta.is_finite() && bed.weight() < 1.0 => turbulent::numbers(bed),
+        Flow::Turbulent(bed) => {
+            let share = significant(bed.weight(), 3);
+            let reason = format!(
+                "no bed rests on this slope: what pulls grains and water down it is {share} of what friction holds"
+            );
+            return Err(AdviseError::NoFlow { reason });
         }
-        _ => Err(AdviseError::OneModel { model: problem.kind.into() }),
+    };
+    let mut terms = Vec::new();
+    for term in problem.solver().terms() {
+        let Some(judged) = scene.judge(&term) else { continue };
+        if let Some(drop) = term.dropped.filter(|_| !judged.keep) {
+            drop(&mut flow);
+        }
+        terms.push(judged);
     }
+    let offers = registry.entries().filter_map(|entry| Some((entry.info, entry.offer(&flow, tolerance)?)));
+    let Some((info, offer)) = offers.min_by_key(|(_, offer)| offer.effort) else {
+        return Err(AdviseError::OneModel { model: problem.kind.into() });
+    };
+    let Offer { because, template, overrides, .. } = offer;
+    let least = Least { kind: info.name, stochastic: info.stochastic, because, template, overrides };
+    Ok(Advice { numbers, least, terms })
 }
 
 impl Advice {
@@ -142,19 +164,19 @@ impl Advice {
     ///
     /// # Errors
     /// [`AdviseError::NoCase`] if that model refuses the scene.
-    pub fn case(&self) -> Result<Option<String>, AdviseError> {
+    pub fn case(&self, registry: &Registry) -> Result<Option<String>, AdviseError> {
         let Some(overrides) = &self.least.overrides else { return Ok(None) };
         let title = format!("case.title=The least model of a scene: {}", self.least.kind);
         let overrides = [&overrides[..], &[title]].concat();
-        let (case, problem) = Problem::load(self.least.template, &overrides).map_err(|error| {
+        let (case, problem) = registry.load(self.least.template, &overrides).map_err(|error| {
             let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
             AdviseError::NoCase { kind: self.least.kind, reason }
         })?;
         // A continuum takes milliseconds: what is written has a solution.
-        if self.least.kind != "coupled" {
+        if !problem.stochastic {
             let no_case =
                 |failure: Failure| AdviseError::NoCase { kind: self.least.kind, reason: failure.error.to_string() };
-            crate::run(&problem, &mut Quiet).map_err(no_case)?;
+            Context::quiet(|context| problem.run(context)).map_err(no_case)?;
         }
         // The claims of the template are not those of this scene.
         let resolved = case.resolved();
@@ -168,20 +190,27 @@ impl Advice {
 
 /// The case that is advised on.
 struct Scene<'a> {
+    registry: &'a Registry,
     case: &'a str,
     overrides: &'a [String],
     tolerance: f64,
 }
 
 impl Scene<'_> {
-    fn solve(&self, change: &[&str]) -> Option<Results> {
-        let change: Vec<String> = change.iter().map(|&c| c.to_owned()).collect();
-        let (_, problem) = Problem::load(self.case, &[self.overrides, &change].concat()).ok()?;
-        crate::run(&problem, &mut Quiet).ok().map(|outcome| outcome.results)
+    fn solve(&self, change: &[String]) -> Option<Results> {
+        let (_, problem) = self.registry.load(self.case, &[self.overrides, change].concat()).ok()?;
+        Context::quiet(|context| problem.run(context)).ok().map(|outcome| outcome.results)
     }
 
-    /// A term that is judged by solving the case as it stands and with `change`, which drops it.
-    fn without(&self, what: &'static str, change: &[&str], (dropped, source): (&str, &'static str)) -> Option<Term> {
+    /// Whether the scene needs a term: by a threshold, or by solving the case as it stands and without the term.
+    fn judge(&self, term: &model::Term) -> Option<Term> {
+        let model::Term { what, source, .. } = *term;
+        let (change, left, free) = match &term.test {
+            TermTest::Known { keep, because } => {
+                return Some(Term { what, keep: *keep, error: None, because: because.clone(), source });
+            }
+            TermTest::Solve { change, left, free } => (change, left, free),
+        };
         let rate = |results: &Results| results.get(q::TRANSPORT_RATE.name);
         let with = rate(&self.solve(&[])?)?;
         let (error, keep) = match self.solve(change).as_ref().and_then(rate) {
@@ -194,11 +223,12 @@ impl Scene<'_> {
             None => (None, true),
         };
         let because = match error {
-            Some(error) => format!("{dropped} changes the transport rate by {}", share(error)),
-            None if keep => format!("{dropped} leaves no such flow"),
-            None => format!("{dropped} changes nothing"),
+            Some(error) => format!("{left} changes the transport rate by {}", share(error)),
+            None if keep => format!("{left} leaves no such flow"),
+            None => format!("{left} changes nothing"),
         };
-        Some(Term { what, keep, error, because, source })
+        let because = if *free { format!("{because}, and is no slower") } else { because };
+        Some(Term { what, keep: keep && !free, error, because, source })
     }
 }
 

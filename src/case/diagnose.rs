@@ -4,30 +4,31 @@ use serde_json::{Map, Value, json};
 
 use super::document::{Data, Document, Node, Span};
 use super::fault::{Fault, Violation};
-use super::schema::{self, SCENES, SceneSchema};
+use super::kind::{Kind, Kinds};
+use super::schema;
 use super::wording::{choices, expected, header, shown};
 use crate::units;
 
 /// What a document says, and what is wrong with it.
-pub(super) struct Diagnosis {
-    /// name of the scene and the document in plain SI: complete if there are no violations
-    pub scene: Option<(&'static str, Value)>,
+pub(super) struct Diagnosis<'k> {
+    /// kind of the case and the document in plain SI: complete if there are no violations
+    pub case: Option<(&'k Kind, Value)>,
     pub violations: Vec<Violation>,
 }
 
-/// Reads a document as the scene that it names.
-pub(super) fn diagnose(document: &Document) -> Diagnosis {
-    let mut walk = Walk { scene: None, violations: Vec::new() };
+/// Reads a document as the kind of case that it names.
+pub(super) fn diagnose<'k>(document: &Document, kinds: &'k Kinds) -> Diagnosis<'k> {
+    let mut walk = Walk { kinds, kind: None, violations: Vec::new() };
     if matches!(&document.root.data, Data::Table(entries) if entries.is_empty()) {
         walk.report(Fault::Empty, "", &document.root.value);
-        return Diagnosis { scene: None, violations: walk.violations };
+        return Diagnosis { case: None, violations: walk.violations };
     }
-    walk.scene = walk.choose(document);
-    let value = walk.scene.map(|scene| (scene.name, walk.value(&document.root, &scene.schema, "")));
-    if value.is_none() {
-        walk.without_scene(document);
+    walk.kind = walk.choose(document);
+    let case = walk.kind.map(|kind| (kind, walk.value(&document.root, &kind.schema, "")));
+    if case.is_none() {
+        walk.without_kind(document);
     }
-    Diagnosis { scene: value, violations: walk.violations }
+    Diagnosis { case, violations: walk.violations }
 }
 
 /// The name in `candidates` that `word` most likely stands for, if one is close.
@@ -42,25 +43,26 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, c)| c.to_owned())
 }
 
-struct Walk {
-    scene: Option<&'static SceneSchema>,
+struct Walk<'k> {
+    kinds: &'k Kinds,
+    kind: Option<&'k Kind>,
     violations: Vec<Violation>,
 }
 
-impl Walk {
+impl<'k> Walk<'k> {
     fn report(&mut self, fault: Fault, path: &str, span: &Span) {
         self.violations.push(Violation::new(fault, path.to_owned(), span.clone()));
     }
 
-    /// The scene that `model.kind` and `model.solution` name; says what is wrong with them if none.
-    fn choose(&mut self, document: &Document) -> Option<&'static SceneSchema> {
+    /// The kind that `model.kind` and `model.solution` name; says what is wrong with them if none.
+    fn choose(&mut self, document: &Document) -> Option<&'k Kind> {
         let tag = |key: &str| match document.node(&format!("model.{key}")).map(|n| &n.data) {
             Some(Data::Text(word)) => Some(word.as_str()),
             _ => None,
         };
-        let mut kinds: Vec<&str> = SCENES.iter().map(|s| s.tags().0).collect();
+        let mut kinds: Vec<&str> = self.kinds.iter().map(|s| s.tags().0).collect();
         kinds.dedup();
-        let of_kind: Vec<&SceneSchema> = SCENES.iter().filter(|s| Some(s.tags().0) == tag("kind")).collect();
+        let of_kind: Vec<&Kind> = self.kinds.iter().filter(|s| Some(s.tags().0) == tag("kind")).collect();
         if of_kind.is_empty() {
             self.tag(document, "kind", &kinds, "the model that is solved");
             return None;
@@ -70,10 +72,7 @@ impl Walk {
         if found.is_none() {
             self.tag(document, "solution", &solutions, "what is solved");
         }
-        found.map(|s| {
-            let name = s.name;
-            SCENES.iter().find(|s| s.name == name)
-        })?
+        found.copied()
     }
 
     /// Says what is wrong with `model.<key>`, which should be one of `allowed`.
@@ -109,10 +108,10 @@ impl Walk {
     }
 
     /// Without a model only the names of tables can be checked.
-    fn without_scene(&mut self, document: &Document) {
+    fn without_kind(&mut self, document: &Document) {
         let Data::Table(entries) = &document.root.data else { return };
         let mut names: Vec<&str> = Vec::new();
-        for (name, _) in SCENES.iter().flat_map(|s| schema::properties(&s.schema)) {
+        for (name, _) in self.kinds.iter().flat_map(|s| schema::properties(&s.schema)) {
             if !names.contains(&name.as_str()) {
                 names.push(name);
             }
@@ -261,17 +260,17 @@ impl Walk {
         let allowed: Vec<String> = schema::properties(schema).map(|(k, _)| k.clone()).collect();
         let child_path = join(path, name);
         let users: Vec<String> =
-            SCENES.iter().filter(|s| has(&s.schema, &child_path)).map(|s| s.name.to_owned()).collect();
-        let fault = match self.scene {
-            Some(scene) if !users.is_empty() && !users.iter().any(|u| u == scene.name) => {
-                Fault::NotUsed { what, name: name.into(), model: scene.name.into(), users, allowed }
+            self.kinds.iter().filter(|s| has(&s.schema, &child_path)).map(|s| s.name.to_owned()).collect();
+        let fault = match self.kind {
+            Some(kind) if !users.is_empty() && !users.iter().any(|u| u == kind.name) => {
+                Fault::NotUsed { what, name: name.into(), model: kind.name.into(), users, allowed }
             }
-            scene => Fault::Unknown {
+            kind => Fault::Unknown {
                 what,
                 name: name.into(),
                 place: if path.is_empty() { String::new() } else { format!(" in {}", header(path)) },
                 nearest: nearest(name, allowed.iter().map(String::as_str)),
-                elsewhere: scene.and_then(|s| elsewhere(&s.schema, name, path)),
+                elsewhere: kind.and_then(|s| elsewhere(&s.schema, name, path)),
                 allowed,
             },
         };
@@ -364,7 +363,7 @@ fn has(schema: &Value, path: &str) -> bool {
         || schema::alternatives(schema).is_some_and(|a| a.iter().any(|(_, s)| has(s, path)))
 }
 
-/// The table of the scene that has a key of this name, where it is not the table of `path`.
+/// The table of the kind that has a key of this name, where it is not the table of `path`.
 fn elsewhere(schema: &Value, name: &str, path: &str) -> Option<String> {
     schema::properties(schema)
         .filter(|(table, s)| table.as_str() != path && schema::properties(s).any(|(k, _)| k == name))

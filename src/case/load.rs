@@ -8,26 +8,26 @@ use std::path::Path;
 use super::diagnose::{Diagnosis, diagnose, nearest};
 use super::document::{Document, Span, Text};
 use super::fault::{Fault, Violation};
-use super::{Case, CaseError, Scene, shipped};
+use super::{Case, CaseError, Kinds, shipped};
 
 /// Largest accepted case file [bytes].
 const LIMIT: u64 = 1 << 20;
 
 impl Case {
-    /// Loads `name`, a file or a shipped case, applies `--set` overrides and checks it.
+    /// Loads `name`, a file or a shipped case, applies `--set` overrides and checks it as one of `kinds`.
     ///
     /// # Errors
     /// Every violation of the file, or why it cannot be read.
-    pub fn load(name: &str, overrides: &[String]) -> Result<Self, CaseError> {
+    pub fn load(kinds: &Kinds, name: &str, overrides: &[String]) -> Result<Self, CaseError> {
         let path = Path::new(name);
         if path.exists() || name.contains(['/', '\\']) {
             let content = read(path).map_err(|fault| CaseError::without_text(name, fault))?;
             let stem = path.file_stem().map_or_else(|| "case".into(), |s| s.to_string_lossy().into_owned());
-            return Self::parse(&stem, name, content, overrides);
+            return Self::parse(kinds, &stem, name, content, overrides);
         }
         let stem = name.strip_suffix(".toml").unwrap_or(name);
         match shipped::find(stem) {
-            Some(content) => Self::parse(stem, name, content.to_owned(), overrides),
+            Some(content) => Self::parse(kinds, stem, name, content.to_owned(), overrides),
             None => {
                 let fault = Fault::NoSuchCase { name: name.into(), nearest: nearest(stem, shipped::names()) };
                 Err(CaseError::without_text(name, fault))
@@ -39,7 +39,13 @@ impl Case {
     ///
     /// # Errors
     /// Every violation at once.
-    pub fn parse(name: &str, source: &str, content: String, overrides: &[String]) -> Result<Self, CaseError> {
+    pub fn parse(
+        kinds: &Kinds,
+        name: &str,
+        source: &str,
+        content: String,
+        overrides: &[String],
+    ) -> Result<Self, CaseError> {
         let (mut document, mut violations) = Document::parse(source, content);
         let broken: BTreeSet<usize> = violations.iter().filter_map(|v| document.line(&v.spans[0])).collect();
         for argument in overrides {
@@ -47,7 +53,7 @@ impl Case {
                 violations.push(violation);
             }
         }
-        let Diagnosis { scene, violations: more } = diagnose(&document);
+        let Diagnosis { case: found, violations: more } = diagnose(&document, kinds);
         let readable = violations.is_empty();
         let sound = readable && more.is_empty();
         // Where the syntax is broken, what is missing or mistyped may only be unreadable.
@@ -57,19 +63,19 @@ impl Case {
             _ => document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)),
         };
         violations.extend(more.into_iter().filter(|v| broken.is_empty() || !unreadable(v)));
-        let built = scene.filter(|_| readable).map(|(model, value)| (model, Scene::build(model, value)));
-        let case = |model, scene, document| Self {
+        let built = found.filter(|_| readable).map(|(kind, value)| (kind.name, (kind.read)(value)));
+        let case = |model, content, document| Self {
             name: name.into(),
             source: source.into(),
             overrides: overrides.to_vec(),
             model,
-            scene,
+            content,
             document,
         };
         match built {
-            Some((model, Ok(scene))) if sound => Ok(case(model, scene, document)),
-            Some((model, Ok(scene))) => {
-                let draft = Box::new(case(model, scene, document.clone()));
+            Some((model, Ok(content))) if sound => Ok(case(model, content, document)),
+            Some((model, Ok(content))) => {
+                let draft = Box::new(case(model, content, document.clone()));
                 Err(CaseError { document, violations, draft: Some(draft) })
             }
             Some((_, Err(error))) if sound => {

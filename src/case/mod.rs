@@ -8,32 +8,30 @@
 
 mod advice;
 pub mod checks;
-pub mod coupled;
 mod diagnose;
 mod document;
 mod fault;
-pub mod grain_tables;
+mod kind;
 mod load;
 mod reference;
 mod render;
-pub mod scene;
 pub mod schema;
-pub mod section;
-pub mod shear_cell;
-pub mod sheet;
 pub mod shipped;
 pub mod tables;
-pub mod two_fluid;
 mod wording;
 
 pub use diagnose::nearest;
 pub use document::{Document, Span, Text};
 pub use fault::{Fault, Violation};
+pub use kind::{Kind, Kinds, Tables};
 pub use reference::reference;
 pub use render::printable;
-pub use scene::Scene;
 
-/// A case that its schema accepts: typed tables, and the text they came from.
+use checks::{Check, Limit};
+use kind::Content;
+use tables::About;
+
+/// A case that its schema accepts: its tables, and the text they came from.
 #[derive(Clone, Debug)]
 pub struct Case {
     /// stem of the file or name of the shipped case
@@ -44,8 +42,7 @@ pub struct Case {
     pub overrides: Vec<String>,
     /// `kind` or `kind/solution`
     pub model: &'static str,
-    /// the tables
-    pub scene: Scene,
+    content: Content,
     document: Document,
 }
 
@@ -68,7 +65,31 @@ impl Case {
     /// The case with every default filled in, in SI: equal texts are equal cases.
     #[must_use]
     pub fn resolved(&self) -> String {
-        toml::to_string(&self.scene).unwrap_or_default()
+        self.content.resolved.clone()
+    }
+
+    /// Its tables in SI, every default filled in.
+    #[must_use]
+    pub fn tables(&self) -> &serde_json::Value {
+        &self.content.tables
+    }
+
+    /// What the case is about.
+    #[must_use]
+    pub fn about(&self) -> &About {
+        &self.content.about
+    }
+
+    /// Numbers that the case must give.
+    #[must_use]
+    pub fn checks(&self) -> &[Check] {
+        &self.content.checks
+    }
+
+    /// Where its method ends.
+    #[must_use]
+    pub fn limit(&self) -> Option<&Limit> {
+        self.content.limit.as_ref()
     }
 
     /// The numbers of the case that are no counts, by key, `table.key`, in SI, defaults filled in; and the keys that hold
@@ -76,7 +97,7 @@ impl Case {
     #[must_use]
     pub fn numbers(&self) -> (Vec<(String, f64)>, Vec<String>) {
         let (mut numbers, mut others) = (Vec::new(), Vec::new());
-        let mut open = vec![(String::new(), serde_json::to_value(&self.scene).unwrap_or_default())];
+        let mut open = vec![(String::new(), self.content.tables.clone())];
         while let Some((path, value)) = open.pop() {
             match value {
                 serde_json::Value::Object(table) => open.extend(

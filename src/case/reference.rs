@@ -4,30 +4,32 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::schema::{self, SCENES};
+use super::kind::Kinds;
+use super::schema;
 
 /// All tables and keys of all models, as Markdown: what every model has comes once, first.
 #[must_use]
-pub fn reference() -> String {
+pub fn reference(kinds: &Kinds) -> String {
     let mut text = String::from(
         "# Case reference\n\nWritten by `bedload schema --reference` from the types of the program; do not edit.\n\n\
          A quantity is a number in SI or a text with a unit: `0.002` or `\"2 mm\"`. Keys with a default may be left out. \
          A table or key that the model of the case does not have is an error.\n\n\
          | `kind`/`solution` | what is solved | tables beside those of every model |\n|---|---|---|\n",
     );
-    for scene in SCENES.iter() {
-        let own: Vec<String> = own(&scene.schema).map(|(name, table)| format!("`{}`", title(name, table))).collect();
+    for kind in kinds.iter() {
+        let own: Vec<String> =
+            own(kinds, &kind.schema).map(|(name, table)| format!("`{}`", title(name, table))).collect();
         let _ =
-            writeln!(text, "| `{}` | {} | {} |", scene.name, schema::text(&scene.schema, "description"), own.join(" "));
+            writeln!(text, "| `{}` | {} | {} |", kind.name, schema::text(&kind.schema, "description"), own.join(" "));
     }
     text += "\n## In every model\n";
-    let shared = SCENES.first().into_iter().flat_map(|scene| schema::properties(&scene.schema));
-    for (name, table) in shared.filter(|(name, table)| common(name, table)) {
+    let shared = kinds.first().into_iter().flat_map(|kind| schema::properties(&kind.schema));
+    for (name, table) in shared.filter(|(name, table)| common(kinds, name, table)) {
         part(&mut text, name, table);
     }
-    for scene in SCENES.iter() {
-        let _ = write!(text, "\n## Model `{}`\n\n{}\n", scene.name, schema::text(&scene.schema, "description"));
-        for (name, table) in own(&scene.schema) {
+    for kind in kinds.iter() {
+        let _ = write!(text, "\n## Model `{}`\n\n{}\n", kind.name, schema::text(&kind.schema, "description"));
+        for (name, table) in own(kinds, &kind.schema) {
             part(&mut text, name, table);
         }
     }
@@ -35,13 +37,13 @@ pub fn reference() -> String {
 }
 
 /// Whether every model has the table `name`, and the same one.
-fn common(name: &str, table: &Value) -> bool {
-    SCENES.iter().all(|scene| schema::properties(&scene.schema).any(|(n, t)| n == name && t == table))
+fn common(kinds: &Kinds, name: &str, table: &Value) -> bool {
+    kinds.iter().all(|kind| schema::properties(&kind.schema).any(|(n, t)| n == name && t == table))
 }
 
 /// The tables of a model that not every model has.
-fn own(scene: &Value) -> impl Iterator<Item = (&String, &Value)> {
-    schema::properties(scene).filter(|(name, table)| !common(name, table))
+fn own<'k>(kinds: &'k Kinds, kind: &'k Value) -> impl Iterator<Item = (&'k String, &'k Value)> {
+    schema::properties(kind).filter(|(name, table)| !common(kinds, name, table))
 }
 
 /// The table as a case file writes it.

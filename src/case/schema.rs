@@ -1,44 +1,16 @@
 //! The JSON Schema of case files: generated from the tables, used by the diagnostics, published for editors.
 
-use std::sync::LazyLock;
-
 use serde_json::{Map, Value, json};
 
-use super::scene::Scene;
-
-/// The schema of one scene.
-pub(super) struct SceneSchema {
-    /// `kind` or `kind/solution`
-    pub name: &'static str,
-    /// its JSON Schema
-    pub schema: Value,
-}
-
-impl SceneSchema {
-    /// `kind` and, if there is one, `solution`.
-    pub fn tags(&self) -> (&'static str, Option<&'static str>) {
-        self.name.split_once('/').map_or((self.name, None), |(kind, solution)| (kind, Some(solution)))
-    }
-}
-
-/// All scenes, closed: an object has no other keys than its properties.
-pub(super) static SCENES: LazyLock<Vec<SceneSchema>> = LazyLock::new(|| {
-    Scene::schemas()
-        .into_iter()
-        .map(|(name, mut schema)| {
-            close(&mut schema);
-            SceneSchema { name, schema }
-        })
-        .collect()
-});
+use super::kind::Kinds;
 
 /// Name and one-line description of each model.
-pub fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
-    SCENES.iter().map(|scene| (scene.name, text(&scene.schema, "description")))
+pub fn models(kinds: &Kinds) -> impl Iterator<Item = (&'static str, &str)> {
+    kinds.iter().map(|kind| (kind.name, text(&kind.schema, "description")))
 }
 
 /// Objects take no other keys; `null` is not a TOML value.
-fn close(schema: &mut Value) {
+pub(super) fn close(schema: &mut Value) {
     match schema {
         Value::Object(object) => {
             if object.contains_key("properties") {
@@ -58,13 +30,13 @@ fn close(schema: &mut Value) {
     }
 }
 
-/// The published schema: `oneOf` the scenes, quantities as numbers or texts.
+/// The published schema: `oneOf` the kinds of case, quantities as numbers or texts.
 #[must_use]
-pub fn published() -> Value {
-    let scenes: Vec<Value> = SCENES
+pub fn published(kinds: &Kinds) -> Value {
+    let kinds: Vec<Value> = kinds
         .iter()
-        .map(|scene| {
-            let mut schema = scene.schema.clone();
+        .map(|kind| {
+            let mut schema = kind.schema.clone();
             quantities(&mut schema);
             schema
         })
@@ -73,7 +45,7 @@ pub fn published() -> Value {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "bedload case",
         "description": "A case file of bedload, format 1. A quantity is a number in SI or a text with a unit; x-unit is its SI unit.",
-        "oneOf": scenes,
+        "oneOf": kinds,
     })
 }
 

@@ -359,7 +359,7 @@ fn cells() -> usize {
 }
 
 /// Exactly one of `drives` must be given: a JSON Schema `oneOf` of `required`.
-pub(super) fn one_of(schema: &mut Schema, drives: &[&str]) {
+pub(crate) fn one_of(schema: &mut Schema, drives: &[&str]) {
     let choices: Vec<_> = drives.iter().map(|drive| serde_json::json!({ "required": [drive] })).collect();
     schema.insert("oneOf".into(), choices.into());
 }

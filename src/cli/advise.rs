@@ -8,6 +8,7 @@ use serde_json::json;
 
 use super::{CaseArgs, CliError, answer, say};
 use crate::advise;
+use crate::model::Registry;
 use crate::units::significant;
 
 /// The least model that serves a scene, and term by term what can go and what that costs.
@@ -30,13 +31,13 @@ pub(super) struct Advise {
 }
 
 impl Advise {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
             let message = format!("--tolerance {} is not a share above 0", self.tolerance);
             return Err(CliError::Usage { message, hint: "0.05 is five per cent".into() });
         }
-        let advice = advise::advise(&self.case.case, &self.case.overrides, self.tolerance)?;
-        let written = self.save(&advice)?;
+        let advice = advise::advise(registry, &self.case.case, &self.case.overrides, self.tolerance)?;
+        let written = self.save(registry, &advice)?;
         if self.json {
             let numbers = advice.numbers.iter().map(|n| json!({ "name": n.name, "value": n.value, "says": n.says }));
             let terms = advice.terms.iter().map(|t| {
@@ -71,9 +72,9 @@ impl Advise {
     }
 
     /// Writes the case; `None` if none was asked for, or the one that was given serves.
-    fn save(&self, advice: &advise::Advice) -> Result<Option<String>, CliError> {
+    fn save(&self, registry: &Registry, advice: &advise::Advice) -> Result<Option<String>, CliError> {
         let Some(file) = &self.write else { return Ok(None) };
-        let Some(text) = advice.case()? else { return Ok(None) };
+        let Some(text) = advice.case(registry)? else { return Ok(None) };
         let name = file.display().to_string();
         let refused = |message: String, hint: &str| CliError::Usage { message, hint: hint.into() };
         if file.exists() && !self.force {

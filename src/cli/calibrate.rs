@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::study::StudyArgs;
 use super::{CaseArgs, CliError, word};
+use crate::model::Registry;
 use crate::study::calibrate::{self, Request};
 
 /// Fit numbers of a case to a measured profile: values with standard errors, and which of them the data tell apart.
@@ -28,7 +29,7 @@ pub(super) struct Calibrate {
 }
 
 impl Calibrate {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let request = Request {
             case: self.case.case.clone(),
             overrides: self.case.overrides.clone(),
@@ -37,11 +38,11 @@ impl Calibrate {
             columns: self.column,
             sigma: self.sigma,
         };
-        let (plan, next) = calibrate::plan(&request)?;
+        let (plan, next) = calibrate::plan(registry, &request)?;
         let mut options = vec![format!("--to {}", word(&request.data))];
         for (option, values) in [("fit", &request.fit), ("column", &request.columns), ("sigma", &request.sigma)] {
             options.extend(values.iter().map(|value| format!("--{option} {}", word(value))));
         }
-        self.study.conduct_on(&self.case, &plan, next, &options)
+        self.study.conduct_on(registry, &self.case, &plan, next, &options)
     }
 }

@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::study::StudyArgs;
 use super::{CaseArgs, CliError, word};
+use crate::model::Registry;
 use crate::study::chart::{self, Request};
 
 /// What each model and setting of a scene costs, and how far its answer lies from the best one.
@@ -26,7 +27,7 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    pub(super) fn execute(mut self) -> Result<(), CliError> {
+    pub(super) fn execute(mut self, registry: &Registry) -> Result<(), CliError> {
         // Points side by side would share the processor and spoil each other's times.
         self.study.threads.get_or_insert(1);
         let request = Request {
@@ -35,12 +36,12 @@ impl Chart {
             quantity: self.quantity,
             reference: self.reference,
         };
-        let (plan, judge) = chart::plan(&request)?;
+        let (plan, judge) = chart::plan(registry, &request)?;
         let mut cases = self.cases.into_iter();
         let case = CaseArgs { case: cases.next().unwrap_or_default(), overrides: self.overrides };
         let mut options: Vec<String> = cases.map(|case| word(&case)).collect();
         options.extend(request.quantity.map(|name| format!("--quantity {}", word(&name))));
         options.extend(request.reference.map(|run| format!("--reference {}", word(&run))));
-        self.study.conduct(&case, &plan, judge, &options)
+        self.study.conduct(registry, &case, &plan, judge, &options)
     }
 }

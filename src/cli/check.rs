@@ -4,6 +4,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::{CaseArgs, CliError, answer, say};
+use crate::model::Registry;
 
 /// Say whether a case is valid, without running it.
 #[derive(Debug, Args)]
@@ -16,13 +17,13 @@ pub(super) struct Check {
 }
 
 impl Check {
-    pub(super) fn execute(self) -> Result<(), CliError> {
-        let (case, problem) = self.case.load()?;
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+        let (case, problem) = self.case.load(registry)?;
         if self.json {
             return Ok(answer(&json!({ "status": "valid", "case": case.name, "model": problem.model_name() }))?);
         }
-        let checks = case.scene.checks().len();
+        let checks = case.checks().len();
         let rows = if checks == 1 { "1 check".to_owned() } else { format!("{checks} checks") };
-        Ok(say(&format!("{}: valid, {}, {} levels, {rows}\n", case.source, problem.model_name(), problem.cells))?)
+        Ok(say(&format!("{}: valid, {}, {} levels, {rows}\n", case.source, problem.model_name(), problem.cells()))?)
     }
 }

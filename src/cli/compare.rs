@@ -10,8 +10,9 @@ use super::progress::Progress;
 use super::{CliError, answer, say, word};
 use crate::case::Case;
 use crate::compare::{Align, CompareError, Comparison, NormRow, Request, Subject, compare, data, percent};
+use crate::model::Registry;
+use crate::model::{Context, Problem};
 use crate::output::{prepare_comparison, read_run, write_comparison};
-use crate::problem::Problem;
 use crate::result::{Cost, ErrorReport, Provenance, Status, quantity};
 use crate::runtime::cost::peak_memory_mb;
 use crate::units::significant;
@@ -66,14 +67,14 @@ enum Loaded {
 }
 
 impl Compare {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let start = Instant::now();
         let given = self.subjects.len() + self.data.len();
         if given < 2 {
             return Err(CompareError::TooFew { given }.into());
         }
         let request = self.request();
-        let (loaded, names) = self.load()?;
+        let (loaded, names) = self.load(registry)?;
         let mut progress = Progress::new(self.quiet);
         let out = self.out.clone().unwrap_or_else(|| Comparison::folder(&names, request.align, request.scale));
         let folder = prepare_comparison(&out, &request, self.force)?;
@@ -118,7 +119,7 @@ impl Compare {
     }
 
     /// Reads and checks everything before anything is run; the names are those of the default folder.
-    fn load(&self) -> Result<(Vec<Loaded>, Vec<String>), CliError> {
+    fn load(&self, registry: &Registry) -> Result<(Vec<Loaded>, Vec<String>), CliError> {
         let (mut loaded, mut names) = (Vec::new(), Vec::new());
         for argument in &self.subjects {
             let path = Path::new(argument);
@@ -130,8 +131,7 @@ impl Compare {
                 let message = format!("{argument} is a table, not a case or a run");
                 return Err(CliError::Usage { message, hint: format!("give it as --data {argument}") });
             } else {
-                let case = Case::load(argument, &[])?;
-                let problem = Problem::new(&case)?;
+                let (case, problem) = registry.load(argument, &[])?;
                 names.push(case.name.clone());
                 loaded.push(Loaded::Case(Box::new((case, problem))));
             }
@@ -197,7 +197,7 @@ impl Compare {
 /// Runs a case. A failure ends the comparison, for what is left of it would not be what was asked for.
 fn solve(case: &Case, problem: &Problem, progress: &mut Progress) -> Result<Subject, CliError> {
     let solving = Instant::now();
-    let outcome = crate::run(problem, progress).map_err(|failure| {
+    let outcome = problem.run(&mut Context::new(progress)).map_err(|failure| {
         let error = ErrorReport {
             code: failure.error.code().into(),
             message: format!("{}: {}", case.source, failure.error),

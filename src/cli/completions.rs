@@ -4,6 +4,7 @@ use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
 use super::{Cli, CliError, say};
+use crate::model::Registry;
 
 /// Print a completion script for a shell.
 #[derive(Debug, Args)]
@@ -14,7 +15,7 @@ pub(super) struct Completions {
 }
 
 impl Completions {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, _: &Registry) -> Result<(), CliError> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "bedload", &mut script);
         Ok(say(&String::from_utf8_lossy(&script))?)

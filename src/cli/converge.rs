@@ -4,6 +4,7 @@ use clap::{Args, ValueEnum};
 
 use super::study::StudyArgs;
 use super::{CaseArgs, CliError};
+use crate::model::Registry;
 use crate::study::converge::{self, Request};
 
 /// How fast the error of a case falls: against exact or finest, with the observed order.
@@ -43,7 +44,7 @@ enum Reference {
 }
 
 impl Converge {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let over = match self.over {
             Over::Regularisation => converge::Over::Regularisation,
             Over::Mesh => converge::Over::Mesh,
@@ -67,7 +68,7 @@ impl Converge {
             }),
             half_decades: self.half_decades,
         };
-        let (plan, judge) = converge::plan(&request)?;
-        self.study.conduct(&self.case, &plan, judge, &options)
+        let (plan, judge) = converge::plan(registry, &request)?;
+        self.study.conduct(registry, &self.case, &plan, judge, &options)
     }
 }

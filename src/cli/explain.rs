@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::{CaseArgs, CliError, say};
+use crate::model::Registry;
 
 /// Show the equations that a case solves, with its numbers, and the laws in them.
 #[derive(Debug, Args)]
@@ -12,11 +13,16 @@ pub(super) struct Explain {
 }
 
 impl Explain {
-    pub(super) fn execute(self) -> Result<(), CliError> {
-        let (_, problem) = self.case.load()?;
-        let mut text =
-            format!("{}\n{} ({})\n\n{}", problem.title, problem.name, problem.model_name(), crate::equations(&problem));
-        let laws = crate::laws(&problem);
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+        let (_, problem) = self.case.load(registry)?;
+        let mut text = format!(
+            "{}\n{} ({})\n\n{}",
+            problem.title,
+            problem.name,
+            problem.model_name(),
+            problem.describe().equations
+        );
+        let laws = problem.describe().laws;
         if !laws.is_empty() {
             text += "\nLaws\n";
         }

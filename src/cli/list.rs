@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 use super::{CliError, answer, say};
 use crate::case::{Case, schema, shipped};
 use crate::closures::{CATALOGUE, Standing};
+use crate::model::Registry;
 
 /// List models, shipped cases and closures.
 #[derive(Debug, Args)]
@@ -26,14 +27,19 @@ enum What {
 }
 
 impl List {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let wanted = |what| self.what.is_none_or(|w| w == what);
         let mut sections: Vec<(&str, Vec<(String, String)>)> = Vec::new();
         if wanted(What::Models) {
-            sections.push(("models", schema::models().map(|(n, about)| (n.into(), about.into())).collect()));
+            sections.push((
+                "models",
+                schema::models(registry.kinds()).map(|(n, about)| (n.into(), about.into())).collect(),
+            ));
         }
         if wanted(What::Cases) {
-            let about = |name: &str| Case::load(name, &[]).map(|c| c.scene.about().title.clone()).unwrap_or_default();
+            let about = |name: &str| {
+                Case::load(registry.kinds(), name, &[]).map(|c| c.about().title.clone()).unwrap_or_default()
+            };
             sections.push(("cases", shipped::names().map(|name| (name.to_owned(), about(name))).collect()));
         }
         if wanted(What::Closures) {

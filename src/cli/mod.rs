@@ -26,10 +26,10 @@ use clap::{Args, Parser, Subcommand};
 use serde_json::{Value, json};
 
 use crate::advise::AdviseError;
-use crate::case::{Case, CaseError, printable};
+use crate::case::{CaseError, printable};
 use crate::compare::CompareError;
+use crate::model::{Checked, Registry};
 use crate::output::OutputError;
-use crate::problem::Problem;
 use crate::result::ErrorReport;
 use crate::runtime::interrupt::STOPPED;
 use crate::study::StudyError;
@@ -99,8 +99,8 @@ impl CaseArgs {
         std::iter::once(self.case.clone()).chain(overrides).collect()
     }
 
-    fn load(&self) -> Result<(Case, Problem), CliError> {
-        Ok(Problem::load(&self.case, &self.overrides)?)
+    fn load(&self, registry: &Registry) -> Result<Checked, CliError> {
+        Ok(registry.load(&self.case, &self.overrides)?)
     }
 }
 
@@ -185,7 +185,7 @@ impl From<io::Error> for CliError {
 
 /// Parses the arguments, does what they ask, and returns the exit code.
 #[must_use]
-pub fn execute() -> ExitCode {
+pub fn execute(registry: &Registry) -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
         Err(error) => {
@@ -214,22 +214,22 @@ pub fn execute() -> ExitCode {
         Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
     };
     let result = match cli.verb {
-        Verb::Run(verb) => verb.execute(),
-        Verb::Check(verb) => verb.execute(),
-        Verb::Explain(verb) => verb.execute(),
-        Verb::New(verb) => verb.execute(),
-        Verb::List(verb) => verb.execute(),
-        Verb::Report(verb) => verb.execute(),
-        Verb::Compare(verb) => verb.execute(),
-        Verb::Converge(verb) => verb.execute(),
-        Verb::Sweep(verb) => verb.execute(),
-        Verb::Chart(verb) => verb.execute(),
-        Verb::Stability(verb) => verb.execute(),
-        Verb::Calibrate(verb) => verb.execute(),
-        Verb::Advise(verb) => verb.execute(),
-        Verb::Validate(verb) => verb.execute(),
-        Verb::Schema(verb) => verb.execute(),
-        Verb::Completions(verb) => verb.execute(),
+        Verb::Run(verb) => verb.execute(registry),
+        Verb::Check(verb) => verb.execute(registry),
+        Verb::Explain(verb) => verb.execute(registry),
+        Verb::New(verb) => verb.execute(registry),
+        Verb::List(verb) => verb.execute(registry),
+        Verb::Report(verb) => verb.execute(registry),
+        Verb::Compare(verb) => verb.execute(registry),
+        Verb::Converge(verb) => verb.execute(registry),
+        Verb::Sweep(verb) => verb.execute(registry),
+        Verb::Chart(verb) => verb.execute(registry),
+        Verb::Stability(verb) => verb.execute(registry),
+        Verb::Calibrate(verb) => verb.execute(registry),
+        Verb::Advise(verb) => verb.execute(registry),
+        Verb::Validate(verb) => verb.execute(registry),
+        Verb::Schema(verb) => verb.execute(registry),
+        Verb::Completions(verb) => verb.execute(registry),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -8,6 +8,7 @@ use clap::Args;
 
 use super::{CliError, say};
 use crate::case::{nearest, shipped};
+use crate::model::Registry;
 
 /// Write a case to start from.
 #[derive(Debug, Args)]
@@ -24,7 +25,7 @@ pub(super) struct New {
 }
 
 impl New {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, _: &Registry) -> Result<(), CliError> {
         let Some(content) = shipped::find(&self.from) else {
             let hint = nearest(&self.from, shipped::names())
                 .map_or_else(|| "`bedload list cases` shows them".into(), |n| format!("did you mean \"{n}\"?"));

@@ -6,6 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::{CliError, answer, say};
+use crate::model::Registry;
 use crate::output::redraw;
 
 /// Redraw figures and page of a run from its tables.
@@ -23,8 +24,8 @@ pub(super) struct Report {
 }
 
 impl Report {
-    pub(super) fn execute(self) -> Result<(), CliError> {
-        let written = redraw(&self.run, self.png)?;
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+        let written = redraw(registry, &self.run, self.png)?;
         let files: Vec<String> = std::iter::once(self.run.join("report.html"))
             .chain(written.figures)
             .map(|path| path.display().to_string())

@@ -11,10 +11,9 @@ use serde_json::Value;
 
 use super::progress::Progress;
 use super::{CaseArgs, CliError, answer, say};
-use crate::discrete::bed::accepts;
-use crate::discrete::couple;
+use crate::model::Registry;
+use crate::model::{Context, Problem};
 use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
-use crate::problem::{Model, Problem};
 use crate::result::{Cost, Snapshot, Status, Summary, Watch, quantity};
 use crate::runtime::{cost::peak_memory_mb, pool};
 use crate::units::{readable, significant};
@@ -51,9 +50,9 @@ pub(super) struct Run {
 }
 
 impl Run {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let start = Instant::now();
-        let (case, problem) = self.case.load()?;
+        let (case, problem) = self.case.load(registry)?;
         // Listening begins before there is anything that Ctrl-C could leave half done.
         let progress = Progress::new(self.quiet);
         let out = self.out.unwrap_or_else(|| PathBuf::from("runs").join(&case.name));
@@ -69,14 +68,14 @@ impl Run {
         }
         let between = (self.checkpoint > 0.0).then(|| Duration::from_secs_f64(self.checkpoint));
         let mut keeper = Keeper { progress, folder: &folder, checkpoint, going_on, between, last: Instant::now() };
-        let result = crate::run(&problem, &mut keeper);
+        let result = problem.run(&mut Context::new(&mut keeper));
         drop(keeper);
         let solve_s = solving.elapsed().as_secs_f64();
         let cost = Cost {
             solve_s,
             total_s: start.elapsed().as_secs_f64(),
             peak_memory_mb: peak_memory_mb(),
-            work_units: problem.cells as f64,
+            work_units: problem.cells() as f64,
             ..Cost::default()
         };
         let written = match &result {
@@ -101,11 +100,7 @@ impl Run {
     /// The checkpoint of the unfinished run in `out`, if there is one; one that cannot be used is refused.
     fn checkpoint(out: &Path, problem: &Problem) -> Result<Option<Vec<u8>>, CliError> {
         let Ok(bytes) = fs::read(out.join(CHECKPOINT)) else { return Ok(None) };
-        let accepted = match &problem.model {
-            Model::Grains(bed) => accepts(bed, &bytes),
-            Model::Coupled(flow) => couple::accepts(flow, &bytes),
-            _ => return Ok(None),
-        };
+        let Some(accepted) = problem.solver().accepts(&bytes) else { return Ok(None) };
         accepted.map(|()| Some(bytes)).map_err(|error| CliError::Usage {
             message: format!("{}: {error}", out.join(CHECKPOINT).display()),
             hint: "--force starts again".into(),

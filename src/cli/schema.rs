@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::{CliError, answer, say};
 use crate::case::{reference, schema};
+use crate::model::Registry;
 
 /// Print the JSON Schema of case files, for editors.
 #[derive(Debug, Args)]
@@ -14,7 +15,11 @@ pub(super) struct Schema {
 }
 
 impl Schema {
-    pub(super) fn execute(self) -> Result<(), CliError> {
-        if self.reference { Ok(say(&reference())?) } else { Ok(answer(&schema::published())?) }
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+        if self.reference {
+            Ok(say(&reference(registry.kinds()))?)
+        } else {
+            Ok(answer(&schema::published(registry.kinds()))?)
+        }
     }
 }

@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::study::StudyArgs;
 use super::{CaseArgs, CliError, word};
+use crate::model::Registry;
 use crate::study::stability::{self, Request};
 
 /// Where a case holds over one key or two: each point classified, each limit bisected.
@@ -23,12 +24,12 @@ pub(super) struct Stability {
 }
 
 impl Stability {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         if let Some(tolerance) = self.tolerance.filter(|tolerance| !(*tolerance > 0.0 && tolerance.is_finite())) {
             let message = format!("--tolerance {tolerance} is not a share above 0");
             return Err(CliError::Usage { message, hint: "0.01 is one per cent".into() });
         }
-        let own = self.case.load()?.0.scene.limit().filter(|_| self.over.is_empty()).cloned();
+        let own = self.case.load(registry)?.0.limit().filter(|_| self.over.is_empty()).cloned();
         if self.over.is_empty() && own.is_none() {
             let message = "nothing is varied: no --over, and the case has no table [limit]".to_owned();
             return Err(CliError::Usage { message, hint: "add --over table.key=from:to:count".into() });
@@ -44,7 +45,7 @@ impl Stability {
             tolerance,
             predicted: own.filter(|_| self.case.overrides.is_empty()).map(|limit| limit.expect),
         };
-        let (plan, judge) = stability::plan(&request)?;
-        self.study.conduct(&self.case, &plan, judge, &options)
+        let (plan, judge) = stability::plan(registry, &request)?;
+        self.study.conduct(registry, &self.case, &plan, judge, &options)
     }
 }

@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 
 use super::progress::Progress;
 use super::{CaseArgs, CliError, answer, say, word};
+use crate::model::Registry;
 use crate::output::Mode;
 use crate::result::{ErrorReport, Snapshot, Status, Watch};
 use crate::runtime::interrupt;
@@ -65,17 +66,32 @@ impl Observer for Shown {
 
 impl StudyArgs {
     /// Conducts a study and says what came of it; `options` are the arguments of its verb.
-    pub fn conduct(&self, case: &CaseArgs, plan: &Plan, judge: Judge, options: &[String]) -> Result<(), CliError> {
-        self.conduct_on(case, plan, Box::new(|_, _| (Vec::new(), judge)), options)
+    pub fn conduct(
+        &self,
+        registry: &Registry,
+        case: &CaseArgs,
+        plan: &Plan,
+        judge: Judge,
+        options: &[String],
+    ) -> Result<(), CliError> {
+        self.conduct_on(registry, case, plan, Box::new(|_, _| (Vec::new(), judge)), options)
     }
 
     /// The same, with points that follow from the first ones.
-    pub fn conduct_on(&self, case: &CaseArgs, plan: &Plan, next: Next, options: &[String]) -> Result<(), CliError> {
+    pub fn conduct_on(
+        &self,
+        registry: &Registry,
+        case: &CaseArgs,
+        plan: &Plan,
+        next: Next,
+        options: &[String],
+    ) -> Result<(), CliError> {
         let sets = case.overrides.iter().map(|set| format!("--set {}", word(set)));
         let words = ["bedload".to_owned(), plan.verb.into(), word(&case.case)].into_iter().chain(sets);
         let command = words.chain(options.iter().cloned()).collect::<Vec<_>>().join(" ");
         let shown = Shown(Mutex::new(Progress::new(self.quiet)));
         let settings = Settings {
+            registry,
             out: self.out.clone(),
             mode: Mode { force: self.force, resume: self.resume },
             threads: self.threads.map_or(0, usize::from),

@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::study::StudyArgs;
 use super::{CaseArgs, CliError, word};
+use crate::model::Registry;
 use crate::study::sweep;
 
 /// Run a case over values of one key or a grid of several: a table of all results, and a figure.
@@ -19,9 +20,9 @@ pub(super) struct Sweep {
 }
 
 impl Sweep {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let (plan, judge) = sweep::plan(&self.case.case, &self.case.overrides, &self.over)?;
         let options: Vec<String> = self.over.iter().map(|over| format!("--over {}", word(over))).collect();
-        self.study.conduct(&self.case, &plan, judge, &options)
+        self.study.conduct(registry, &self.case, &plan, judge, &options)
     }
 }

@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use super::progress::Progress;
 use super::{CliError, answer, say};
 use crate::case::checks::Tier;
+use crate::model::Registry;
 use crate::plot;
 use crate::units::significant;
 use crate::validate::scenes::{self, Judged};
@@ -38,10 +39,11 @@ pub(super) struct Validate {
 }
 
 impl Validate {
-    pub(super) fn execute(self) -> Result<(), CliError> {
+    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let tier = if self.full && !self.quick { Tier::Full } else { Tier::Quick };
-        let rows = validate(&self.cases, tier, &mut Progress::new(self.json))?;
-        let judged = if self.advice || self.full && self.cases.is_empty() { scenes::judge() } else { Vec::new() };
+        let rows = validate(registry, &self.cases, tier, &mut Progress::new(self.json))?;
+        let judged =
+            if self.advice || self.full && self.cases.is_empty() { scenes::judge(registry) } else { Vec::new() };
         let default = (self.full && self.cases.is_empty())
             .then(|| PathBuf::from("docs/validation.md"))
             .filter(|_| Path::new("docs").is_dir());

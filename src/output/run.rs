@@ -11,8 +11,8 @@ use sha2::{Digest, Sha256};
 use super::folder::{Folder, OutputError, write_whole};
 use super::grains::read_motion;
 use crate::case::Case;
+use crate::model::{Problem, Registry};
 use crate::plot::{self, Figure, Page};
-use crate::problem::Problem;
 use crate::result::quantity;
 use crate::result::{
     Cost, ErrorReport, Failure, Outcome, Profile, Provenance, Results, Series, Status, Summary, TableError,
@@ -188,7 +188,7 @@ fn draw(
     let mut figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
     figures.extend(profile.map(|p| plot::judge_figures(p, problem)).unwrap_or_default());
     let page = {
-        let (equations, notes) = (crate::equations(problem), [problem.title.clone()]);
+        let (equations, notes) = (problem.describe().equations, [problem.title.clone()]);
         let picture = picture(place, summary);
         let (figures, picture) = (&figures, picture.as_ref().map(|(svg, caption)| (svg.as_str(), *caption)));
         let (motion, equations) = (read_motion(place), equations.as_str());
@@ -296,15 +296,15 @@ fn read_text(folder: &Path, name: &str) -> Result<String, OutputError> {
 ///
 /// # Errors
 /// [`OutputError::NotARun`] if the folder does not hold a run, [`OutputError::Interrupted`] if it cannot be written.
-pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
+pub fn redraw(registry: &Registry, folder: &Path, png: bool) -> Result<Written, OutputError> {
     let wrong = |reason: String| OutputError::NotARun { folder: folder.into(), reason };
     let (summary, profile) = read_run(folder)?;
     let text = read_text(folder, "case.toml")?;
     if let Ok(file) = fs::File::open(folder.join("series.csv")) {
         Series::read_csv(BufReader::new(file)).map_err(|error| wrong(format!("series.csv: {error}")))?;
     }
-    let case = Case::parse(&summary.case, "case.toml", text.clone(), &[]).map_err(|error| wrong(error.to_string()))?;
-    let problem = Problem::new(&case).map_err(|error| wrong(error.to_string()))?;
+    let checked = registry.parse(&summary.case, "case.toml", text.clone(), &[]);
+    let (_, problem) = checked.map_err(|error| wrong(error.to_string()))?;
     let figures = draw(folder, folder, &summary, profile.as_ref(), &problem, &text, png)?;
     Ok(Written { summary, figures, kept: false })
 }

@@ -14,7 +14,8 @@ use super::kinetic::PHI_C;
 use super::{Axis, Curve, Dash, Figure, Marker, Panel};
 use crate::closures::kinetic::radial::PHI_MAX;
 use crate::closures::kinetic::{FrictionalCollisional, GarzoDufty, Inertial, Kinetic};
-use crate::problem::{Coupled, Model, Problem};
+use crate::model::Problem;
+use crate::models::coupled::Coupled;
 use crate::result::Profile;
 use crate::result::quantity::{self as q, Quantity};
 
@@ -32,7 +33,7 @@ type Law<'a> = (&'a str, Dash, &'a dyn Fn(usize) -> Option<f64>);
 /// The figures of a coupled flow; none of any other.
 #[must_use]
 pub fn judge_figures(profile: &Profile, problem: &Problem) -> Vec<Figure> {
-    let Model::Coupled(flow) = &problem.model else { return Vec::new() };
+    let Some(flow) = problem.get::<Coupled>() else { return Vec::new() };
     let (e, mu_p) = (flow.bed.contact.e_n, flow.bed.contact.mu);
     let judge = Judge {
         profile,

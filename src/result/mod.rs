@@ -1,6 +1,7 @@
 //! What a run returns: profiles over z, series over iterations or time, named numbers, and where all of it came from.
 //! These are the only types that plots, reports, tables and comparisons accept.
 
+mod checkpoint;
 mod motion;
 mod outcome;
 mod provenance;
@@ -9,6 +10,7 @@ mod summary;
 mod table;
 mod watch;
 
+pub use checkpoint::CheckpointError;
 pub use motion::{Motion, base64};
 pub use outcome::{Failure, Outcome, SolveError};
 pub use provenance::Provenance;

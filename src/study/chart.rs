@@ -13,9 +13,9 @@ use serde_json::json;
 use super::converge::{Judge, error_text};
 use super::mesh::ClosedForm;
 use super::{Judgement, Plan, Point, Row, StudyError, ladder};
+use crate::model::{Problem, Registry};
 use crate::output::read_run;
 use crate::plot::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
-use crate::problem::Problem;
 use crate::result::Status;
 use crate::result::quantity::{self as q, Quantity};
 use crate::units::{readable, significant};
@@ -78,15 +78,15 @@ struct Judged {
 ///
 /// # Errors
 /// [`StudyError::Case`] if any case is wrong as it stands; [`StudyError::BadReference`].
-pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
+pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), StudyError> {
     let Some((first, others)) = request.cases.split_first() else {
         return Err(StudyError::BadOver { argument: String::new(), reason: "there is no case".into() });
     };
-    let (_, problem) = Problem::load(first, &request.overrides).map_err(Box::new)?;
-    let mut points = accepted(ladder::rungs(None, &problem), first, &request.overrides);
+    let (_, problem) = registry.load(first, &request.overrides).map_err(Box::new)?;
+    let mut points = accepted(registry, ladder::rungs(None, &problem), first, &request.overrides);
     for case in others {
-        let (_, problem) = Problem::load(case, &[]).map_err(Box::new)?;
-        let mut more = accepted(ladder::rungs(Some(case), &problem), case, &[]);
+        let (_, problem) = registry.load(case, &[]).map_err(Box::new)?;
+        let mut more = accepted(registry, ladder::rungs(Some(case), &problem), case, &[]);
         let alone = more.iter().all(|point| point.series == problem.kind);
         for point in &mut more {
             point.series = if alone { case.clone() } else { format!("{case}, {}", point.series) };
@@ -117,8 +117,8 @@ pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
 }
 
 /// The points that their case accepts.
-fn accepted(points: Vec<Point>, case: &str, overrides: &[String]) -> Vec<Point> {
-    let fits = |point: &Point| Problem::load(case, &[overrides, &point.overrides].concat()).is_ok();
+fn accepted(registry: &Registry, points: Vec<Point>, case: &str, overrides: &[String]) -> Vec<Point> {
+    let fits = |point: &Point| registry.load(case, &[overrides, &point.overrides].concat()).is_ok();
     points.into_iter().filter(fits).collect()
 }
 
@@ -392,7 +392,10 @@ mod tests {
             ("sheet_1d_sumer91", "exact", "sheet-flow has no closed form"),
             ("sheet_1d_sumer91", "no/such/folder", "no/such/folder"),
         ] {
-            let said = plan(&request(case, reference)).err().map(|e| e.to_string()).unwrap_or_default();
+            let said = plan(&crate::models::builtin(), &request(case, reference))
+                .err()
+                .map(|e| e.to_string())
+                .unwrap_or_default();
             assert!(said.contains(words), "{said}");
         }
     }

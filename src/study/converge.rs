@@ -2,8 +2,8 @@
 
 use super::errors::Focus;
 use super::{Judgement, Plan, Row, StudyError, mesh, regularisation};
+use crate::model::Registry;
 use crate::plot::{Curve, Dash, Marker};
-use crate::problem::Problem;
 
 /// What is refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,8 +56,8 @@ impl Over {
 ///
 /// # Errors
 /// [`StudyError::Case`], and [`StudyError::NoSuchSetting`] or [`StudyError::NoClosedForm`] for a model that has none.
-pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
-    let (case, problem) = Problem::load(&request.case, &request.overrides).map_err(Box::new)?;
+pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), StudyError> {
+    let (case, problem) = registry.load(&request.case, &request.overrides).map_err(Box::new)?;
     let Some(focus) = Focus::of(&problem) else {
         let (over, model) = (request.over.name(), case.model.to_owned());
         return Err(StudyError::NoSuchSetting { over, model, allowed: "laminar, bingham and section" });

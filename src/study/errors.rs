@@ -4,7 +4,11 @@ use std::borrow::Cow;
 
 use super::Row;
 use crate::compare::norms::deviation;
-use crate::problem::{BinghamDrive, Contents, Model, Problem, RegularisedBed, RegularisedPlane};
+use crate::model::{OnMesh, Problem};
+use crate::models::bingham::RegularisedPlane;
+use crate::models::exact::bingham::BinghamDrive;
+use crate::models::laminar::RegularisedBed;
+use crate::models::section::{CavityFlow, Contents, Duct, DuctBed};
 use crate::result::quantity::{self as q, Quantity};
 use crate::result::{Profile, Results};
 
@@ -66,8 +70,8 @@ pub(super) struct Truth<'a> {
 impl Focus {
     /// What there is to measure in `problem`; `None` for a model that is not solved numerically.
     pub fn of(problem: &Problem) -> Option<Self> {
-        match &problem.model {
-            Model::Laminar(RegularisedBed { bed, .. }) => Some(Self {
+        if let Some(OnMesh { problem: RegularisedBed { bed, .. }, .. }) = problem.get() {
+            return Some(Self {
                 velocity: &q::U_PARTICLE,
                 lambda: "λ η/(Δρ g H)",
                 shear_unit: bed.velocity_scale() / bed.h,
@@ -78,8 +82,10 @@ impl Focus {
                 // the yield stress of the first layer of grains, as in section 3.2 of the paper
                 yield_velocity: bed.friction.mu_s * (bed.rho_p - bed.rho_f) * bed.g * bed.d * bed.h / bed.eta,
                 bingham: "μ_s (ρ_p - ρ_f) g d H/(η U_m)",
-            }),
-            Model::Bingham(RegularisedPlane { plane, .. }) => Some(Self {
+            });
+        }
+        if let Some(OnMesh { problem: RegularisedPlane { plane, .. }, .. }) = problem.get() {
+            return Some(Self {
                 velocity: &q::U_MIXTURE,
                 lambda: match plane.drive {
                     BinghamDrive::MeanVelocity(_) => "λ H/Uₘ",
@@ -92,54 +98,43 @@ impl Focus {
                 meshes: Some(Meshes::PLANE),
                 yield_velocity: plane.tau_0 * plane.h / plane.eta,
                 bingham: "τ_0 H/(η U_m)",
-            }),
-            Model::Duct(flow) => {
-                let (unit, number, yields, bingham) = match &flow.contents {
-                    Contents::Bingham { tau_0, .. } => {
-                        ("λ η/(G H)", (&q::FLOW_RATE, "flow_rate"), *tau_0, "τ_0 H/(η U_m)")
-                    }
-                    Contents::Bed(bed) => {
-                        let yields = bed.friction.mu_s * (bed.rho_p - bed.rho_f) * bed.g * bed.d;
-                        let number = (&q::BED_FLUX, "bed_flux");
-                        ("λ η/(Δρ g H)", number, yields, "μ_s (ρ_p - ρ_f) g d H/(η U_m)")
-                    }
-                };
-                Some(Self {
-                    velocity: &q::U_MIXTURE,
-                    lambda: unit,
-                    shear_unit: flow.shear_scale(),
-                    velocity_unit: flow.shear_scale() * flow.h,
-                    number,
-                    bed: false,
-                    meshes: Some(Meshes::SECTION),
-                    yield_velocity: yields * flow.h / flow.viscosity(),
-                    bingham,
-                })
-            }
-            Model::Cavity(flow) => Some(Self {
-                velocity: &q::U_MIXTURE,
-                lambda: "λ H/U",
-                shear_unit: flow.lid / flow.h,
-                velocity_unit: flow.lid,
-                number: (&q::STREAM_MAX, "stream_function"),
-                bed: false,
-                meshes: None,
-                yield_velocity: flow.tau_0 * flow.h / flow.eta,
-                bingham: "τ_0 H/(η U)",
-            }),
-            // The measures are those of a bed under two planes; sheet flow and grains have none of their own yet.
-            Model::SheetFlow(_)
-            | Model::TwoFluid(_)
-            | Model::ShearCell(_)
-            | Model::Ouriemi(_)
-            | Model::BinghamPlane(_)
-            | Model::BagnoldFilm(_)
-            | Model::LogLaw(_)
-            | Model::Grains(_)
-            | Model::Coupled(_)
-            | Model::Impact(_)
-            | Model::Trial(_) => None,
+            });
         }
+        let duct = problem.get().map(|Duct(flow)| flow);
+        if let Some(OnMesh { problem: flow, .. }) = duct.or(problem.get().map(|DuctBed(flow)| flow)) {
+            let (unit, number, yields, bingham) = match &flow.contents {
+                Contents::Bingham { tau_0, .. } => ("λ η/(G H)", (&q::FLOW_RATE, "flow_rate"), *tau_0, "τ_0 H/(η U_m)"),
+                Contents::Bed(bed) => {
+                    let yields = bed.friction.mu_s * (bed.rho_p - bed.rho_f) * bed.g * bed.d;
+                    let number = (&q::BED_FLUX, "bed_flux");
+                    ("λ η/(Δρ g H)", number, yields, "μ_s (ρ_p - ρ_f) g d H/(η U_m)")
+                }
+            };
+            return Some(Self {
+                velocity: &q::U_MIXTURE,
+                lambda: unit,
+                shear_unit: flow.shear_scale(),
+                velocity_unit: flow.shear_scale() * flow.h,
+                number,
+                bed: false,
+                meshes: Some(Meshes::SECTION),
+                yield_velocity: yields * flow.h / flow.viscosity(),
+                bingham,
+            });
+        }
+        // The measures are those of a bed under two planes; sheet flow and grains have none of their own yet.
+        let OnMesh { problem: flow, .. }: &OnMesh<CavityFlow> = problem.get()?;
+        Some(Self {
+            velocity: &q::U_MIXTURE,
+            lambda: "λ H/U",
+            shear_unit: flow.lid / flow.h,
+            velocity_unit: flow.lid,
+            number: (&q::STREAM_MAX, "stream_function"),
+            bed: false,
+            meshes: None,
+            yield_velocity: flow.tau_0 * flow.h / flow.eta,
+            bingham: "τ_0 H/(η U)",
+        })
     }
 
     /// The Bingham number on the mean velocity of `results`, or the one that they have.

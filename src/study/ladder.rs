@@ -5,7 +5,13 @@
 
 use super::Point;
 use super::regularisation::{exact_yield, smoothed};
-use crate::problem::{Model, Problem};
+use crate::model::{OnMesh, Problem};
+use crate::models::bingham::RegularisedPlane;
+use crate::models::coupled::Coupled;
+use crate::models::laminar::RegularisedBed;
+use crate::models::section::{CavityFlow, Duct, DuctBed};
+use crate::models::sheet_flow::SheetFlow;
+use crate::models::two_fluid::TwoFluid;
 
 /// What is varied, as a column of the table.
 pub(super) const KEY: &str = "setting";
@@ -20,28 +26,53 @@ type Rung = (&'static str, String, Vec<String>);
 /// What is solved much finer than all rungs: changes of the case, and what it is in words. `None` where refining has no end that can be
 /// paid for: the last rung is the finest.
 pub(super) fn finest(problem: &Problem) -> Option<(String, Vec<String>)> {
-    let cells = problem.cells;
+    let cells = problem.cells();
     let fine = |cells: usize, more: Vec<String>| {
         Some((format!("exact yield, {cells} cells"), [vec![format!("grid.cells={cells}")], more].concat()))
     };
-    match problem.model {
-        Model::Laminar(_) | Model::Bingham(_) => fine(4 * cells.max(400), exact_yield()),
-        Model::SheetFlow(_) => fine(8 * cells.max(300), newton()),
-        Model::Duct(_) | Model::Cavity(_) => fine(128, [newton(), vec!["grid.along=".into()]].concat()),
-        Model::TwoFluid(_) => Some(("960 cells".into(), vec!["grid.cells=960".into()])),
-        _ => None,
+    match family(problem) {
+        Family::Plane => fine(4 * cells.max(400), exact_yield()),
+        Family::Sheet => fine(8 * cells.max(300), newton()),
+        Family::Section | Family::WholeDuct => fine(128, [newton(), vec!["grid.along=".into()]].concat()),
+        Family::TwoFluid => Some(("960 cells".into(), vec!["grid.cells=960".into()])),
+        Family::Grains | Family::One => None,
+    }
+}
+
+/// What kind of ladder a problem has.
+enum Family {
+    Plane,
+    Sheet,
+    Section,
+    WholeDuct,
+    TwoFluid,
+    Grains,
+    One,
+}
+
+fn family(problem: &Problem) -> Family {
+    let duct = problem.get().map(|Duct(flow)| flow).or(problem.get().map(|DuctBed(flow)| flow));
+    match () {
+        () if problem.get::<OnMesh<RegularisedBed>>().is_some() => Family::Plane,
+        () if problem.get::<OnMesh<RegularisedPlane>>().is_some() => Family::Plane,
+        () if problem.get::<OnMesh<SheetFlow>>().is_some() => Family::Sheet,
+        () if duct.is_some_and(|duct| duct.problem.along.is_some()) => Family::WholeDuct,
+        () if duct.is_some() || problem.get::<OnMesh<CavityFlow>>().is_some() => Family::Section,
+        () if problem.get::<OnMesh<TwoFluid>>().is_some() => Family::TwoFluid,
+        () if problem.get::<Coupled>().is_some() => Family::Grains,
+        () => Family::One,
     }
 }
 
 /// All rungs that `problem` may have; `case` is where they come from.
 pub(super) fn rungs(case: Option<&str>, problem: &Problem) -> Vec<Point> {
-    let rungs = match &problem.model {
-        Model::Laminar(_) | Model::Bingham(_) => plane(),
-        Model::SheetFlow(_) => sheet(),
-        Model::Duct(duct) if duct.along.is_some() => whole_duct(),
-        Model::Duct(_) | Model::Cavity(_) => section(),
-        Model::TwoFluid(_) => two_fluid(),
-        Model::Coupled(flow) => grains(flow.bed.discrete.duration, flow.bed.size, flow.bed.side_walls),
+    let rungs = match (family(problem), problem.get::<Coupled>()) {
+        (Family::Plane, _) => plane(),
+        (Family::Sheet, _) => sheet(),
+        (Family::WholeDuct, _) => whole_duct(),
+        (Family::Section, _) => section(),
+        (Family::TwoFluid, _) => two_fluid(),
+        (Family::Grains, Some(flow)) => grains(flow.bed.discrete.duration, flow.bed.size, flow.bed.side_walls),
         _ => vec![(problem.kind, "as it stands".into(), Vec::new())],
     };
     let point = |(series, setting, overrides): Rung| Point {
@@ -155,10 +186,11 @@ mod tests {
 
     /// Rungs of a shipped case that the case accepts, by series.
     fn accepted(case: &str) -> Vec<(String, usize)> {
-        let (_, problem) = Problem::load(case, &[]).unwrap();
+        let registry = crate::models::builtin();
+        let (_, problem) = registry.load(case, &[]).unwrap();
         let mut series: Vec<(String, usize)> = Vec::new();
         for point in rungs(None, &problem) {
-            if Problem::load(case, &point.overrides).is_err() {
+            if registry.load(case, &point.overrides).is_err() {
                 continue;
             }
             match series.last_mut().filter(|(name, _)| *name == point.series) {
@@ -167,7 +199,7 @@ mod tests {
             }
         }
         if let Some((_, finest)) = finest(&problem) {
-            Problem::load(case, &finest).unwrap();
+            registry.load(case, &finest).unwrap();
         }
         series
     }

@@ -7,9 +7,9 @@ use super::stability::Request;
 use super::{Row, StudyError};
 use crate::case::CaseError;
 pub use crate::case::checks::Class;
-use crate::problem::Problem;
+use crate::model::{Context, Registry};
+use crate::result::Results;
 use crate::result::quantity::{self as q, Quantity};
-use crate::result::{Quiet, Results};
 
 /// What is judged: the first of these that a point and its closed form have.
 const JUDGED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
@@ -92,17 +92,17 @@ pub(super) fn solved(request: &Request, form: Option<ClosedForm>, results: &Resu
 }
 
 /// Runs the case with one more value, without a folder.
-fn trial(request: &Request, overrides: &[String]) -> Found {
+fn trial(registry: &Registry, request: &Request, overrides: &[String]) -> Found {
     let failed = |class, reason: String| Found { class, error: None, reason };
     let load = || -> Result<_, CaseError> {
-        Problem::load(&request.case, &[&request.overrides[..], overrides].concat()).map(|(_, problem)| problem)
+        registry.load(&request.case, &[&request.overrides[..], overrides].concat()).map(|(_, problem)| problem)
     };
     match load() {
         Err(error) => {
             let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
             failed(Class::Refused, reason)
         }
-        Ok(problem) => match crate::run(&problem, &mut Quiet) {
+        Ok(problem) => match Context::quiet(|context| problem.run(context)) {
             Ok(outcome) => solved(request, ClosedForm::of(&problem), &outcome.results),
             Err(failure) => failed(Class::of_code(failure.error.code()), failure.error.to_string()),
         },
@@ -111,6 +111,7 @@ fn trial(request: &Request, overrides: &[String]) -> Found {
 
 /// The limit between two values of a key of which one holds.
 fn bisect(
+    registry: &Registry,
     request: &Request,
     (key, unit): (&str, &str),
     rest: &[String],
@@ -119,7 +120,7 @@ fn bisect(
 ) -> Limit {
     let [(a, x), (b, y)] = ends;
     let (mut holds, mut fails, mut worst) = if x.class == Class::Holds { (a, b, y.clone()) } else { (b, a, x.clone()) };
-    let whole = halvings > 0 && takes_whole_numbers(request, key);
+    let whole = halvings > 0 && takes_whole_numbers(registry, request, key);
     for _ in 0..halvings {
         let mut middle = if holds > 0.0 && fails > 0.0 { (holds * fails).sqrt() } else { 0.5 * (holds + fails) };
         if whole {
@@ -130,7 +131,7 @@ fn bisect(
         }
         let mut overrides = vec![format!("{key}={middle:e} {unit}").trim().to_owned()];
         overrides.extend_from_slice(rest);
-        let one = trial(request, &overrides);
+        let one = trial(registry, request, &overrides);
         if one.class == Class::Holds {
             holds = middle;
         } else {
@@ -141,8 +142,8 @@ fn bisect(
 }
 
 /// Whether the key of the case is a whole number.
-fn takes_whole_numbers(request: &Request, key: &str) -> bool {
-    let Ok((case, _)) = Problem::load(&request.case, &request.overrides) else { return false };
+fn takes_whole_numbers(registry: &Registry, request: &Request, key: &str) -> bool {
+    let Ok((case, _)) = registry.load(&request.case, &request.overrides) else { return false };
     let Ok(table) = case.resolved().parse::<toml::Table>() else { return false };
     let value = key.split('.').try_fold(toml::Value::Table(table), |value, part| value.get(part).cloned());
     value.is_some_and(|value| value.is_integer())
@@ -163,19 +164,19 @@ pub enum Along {
 ///
 /// # Errors
 /// [`StudyError::BadOver`] with what is wrong in the argument.
-pub fn first(request: &Request) -> Result<Along, StudyError> {
+pub fn first(registry: &Registry, request: &Request) -> Result<Along, StudyError> {
     let bad = |reason: &str| StudyError::BadOver { argument: request.over.join(" --over "), reason: reason.into() };
     let [over] = &request.over[..] else { return Err(bad("one key")) };
     let varied = parse(over)?;
     let mut last: Option<(f64, Found)> = None;
     for value in &varied.values {
         let (number, unit) = number_and_unit(value).ok_or_else(|| bad("the key takes numbers"))?;
-        let found = trial(request, &[format!("{}={value}", varied.key)]);
+        let found = trial(registry, request, &[format!("{}={value}", varied.key)]);
         if let Some((before, known)) = &last
             && (known.class == Class::Holds) != (found.class == Class::Holds)
         {
             let ends = [(*before, known), (number, &found)];
-            return Ok(Along::Ends(bisect(request, (&varied.key, unit), &[], ends, HALVINGS)));
+            return Ok(Along::Ends(bisect(registry, request, (&varied.key, unit), &[], ends, HALVINGS)));
         }
         last = Some((number, found));
     }
@@ -187,7 +188,13 @@ pub fn first(request: &Request) -> Result<Along, StudyError> {
 }
 
 /// The limits between neighbours of a series, each bisected.
-pub(super) fn limits(request: &Request, varied: &[Varied], rows: &[Row], found: &[Found]) -> Vec<Limit> {
+pub(super) fn limits(
+    registry: &Registry,
+    request: &Request,
+    varied: &[Varied],
+    rows: &[Row],
+    found: &[Found],
+) -> Vec<Limit> {
     let Some(key) = varied.first() else { return Vec::new() };
     let place = |row: &'_ Row| -> Option<(f64, String)> {
         row.point.values.first().and_then(|v| number_and_unit(v)).map(|(x, unit)| (x, unit.to_owned()))
@@ -204,8 +211,10 @@ pub(super) fn limits(request: &Request, varied: &[Varied], rows: &[Row], found: 
         let rest = a.point.overrides.get(1..).unwrap_or_default();
         let ends = [(va, x), (vb, y)];
         let halvings = if patient { HALVINGS } else { 0 };
-        limits
-            .push(Limit { series: a.point.series.clone(), ..bisect(request, (&key.key, &unit), rest, ends, halvings) });
+        limits.push(Limit {
+            series: a.point.series.clone(),
+            ..bisect(registry, request, (&key.key, &unit), rest, ends, halvings)
+        });
     }
     limits
 }

@@ -9,9 +9,13 @@ use super::errors::{Focus, L2, Meshes, RMS, RMS_PAPER, Truth, column};
 use super::orders::{ROUND_OFF, overall, slopes};
 use super::regularisation::exact_yield;
 use super::{Judgement, Point, Row};
-use crate::continuum::exact::{bingham, ouriemi};
+use crate::model::{OnMesh, Problem};
+use crate::models::bingham::RegularisedPlane;
+use crate::models::exact::bed::LaminarBed;
+use crate::models::exact::bingham::BinghamPlane;
+use crate::models::exact::{bingham, ouriemi};
+use crate::models::laminar::RegularisedBed;
 use crate::plot::{Axis, Dash, Figure, Panel};
-use crate::problem::{BinghamPlane, LaminarBed, Model, Problem, RegularisedBed, RegularisedPlane};
 use crate::result::quantity::{U_MIXTURE, U_PARTICLE};
 use crate::result::{Profile, Quiet, Results, Status};
 
@@ -38,15 +42,14 @@ enum Velocity {
 impl ClosedForm {
     /// The closed form of the exact yield of `problem`, if it has one and that can be evaluated.
     pub fn of(problem: &Problem) -> Option<Self> {
-        let (model, velocity) = match &problem.model {
-            Model::Laminar(RegularisedBed { bed, .. }) if bed.rise.is_none() => {
-                let solution = ouriemi::solve(bed, |_| {}).ok()?;
-                (Model::Ouriemi(*bed), Velocity::Bed(Box::new((*bed, solution))))
-            }
-            Model::Bingham(RegularisedPlane { plane, .. }) => (Model::BinghamPlane(*plane), exact_plane(plane)?),
-            _ => return None,
+        let (velocity, outcome) = if let Some(OnMesh { problem: RegularisedBed { bed, .. }, .. }) = problem.get() {
+            let solution = ouriemi::solve(bed, |_| {}).ok().filter(|_| bed.rise.is_none())?;
+            (Velocity::Bed(Box::new((*bed, solution))), ouriemi::run(bed, LEVELS, &mut Quiet))
+        } else {
+            let OnMesh { problem: RegularisedPlane { plane, .. }, .. } = problem.get()?;
+            (exact_plane(plane)?, bingham::run(plane, LEVELS, &mut Quiet))
         };
-        let outcome = crate::run(&Problem { model, cells: LEVELS, ..problem.clone() }, &mut Quiet).ok()?;
+        let outcome = outcome.ok()?;
         Some(Self { velocity, results: outcome.results })
     }
 

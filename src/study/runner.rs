@@ -12,11 +12,11 @@ use serde_json::Value;
 use super::converge::Judge;
 use super::{Judgement, Plan, Point, Row, StudyError, page, record};
 use crate::case::{Case, CaseError};
+use crate::model::{Context, Problem, Registry};
 use crate::output::{
     Folder, Mode, OutputError, StudyFolder, fingerprint, read_run, read_series, write_failure, write_outcome,
     write_running,
 };
-use crate::problem::Problem;
 use crate::result::{Cost, ErrorReport, Provenance, Results, Snapshot, Status, Watch};
 use crate::runtime::cost::peak_memory_mb;
 
@@ -38,6 +38,8 @@ pub type Next = Box<dyn FnOnce(&[Row], &dyn Observer) -> (Vec<Point>, Judge) + S
 
 /// How a study is conducted; none of it changes a result.
 pub struct Settings<'a> {
+    /// the models
+    pub registry: &'a Registry,
     /// folder to write; by default [`Plan::folder`]
     pub out: Option<PathBuf>,
     /// what may be done with a folder that is not empty
@@ -87,7 +89,7 @@ struct Loaded {
 /// [`StudyError::Case`] if the case is refused at every point, [`StudyError::Output`], [`StudyError::Threads`].
 pub fn conduct(plan: &Plan, settings: &Settings<'_>, next: Next) -> Result<Conducted, StudyError> {
     let start = Instant::now();
-    let mut loaded: Vec<Loaded> = plan.points.iter().map(|point| load(plan, point)).collect();
+    let mut loaded: Vec<Loaded> = plan.points.iter().map(|point| load(settings.registry, plan, point)).collect();
     let Some(name) = loaded.iter().find_map(|l| l.case.as_ref().ok().map(|(case, ..)| case.name.clone())) else {
         let first = loaded.drain(..).find_map(|l| l.case.err());
         let empty = || StudyError::BadOver { argument: String::new(), reason: "there is no point".into() };
@@ -107,7 +109,7 @@ pub fn conduct(plan: &Plan, settings: &Settings<'_>, next: Next) -> Result<Condu
     let (rows, resumed, judge) = threads.install(|| -> Result<_, OutputError> {
         let (mut rows, resumed) = run(plan, &plan.points, loaded, &folder, settings)?;
         let (points, judge) = next(&rows, settings.observer);
-        let loaded = points.iter().map(|point| load(plan, point)).collect();
+        let loaded = points.iter().map(|point| load(settings.registry, plan, point)).collect();
         let (more, again) = run(plan, &points, loaded, &folder, settings)?;
         rows.extend(more);
         Ok((rows, resumed + again, judge))
@@ -138,10 +140,10 @@ pub fn conduct(plan: &Plan, settings: &Settings<'_>, next: Next) -> Result<Condu
     Ok(Conducted { record: written, rows, judgement, status, out, figures, kept, resumed, cost })
 }
 
-fn load(plan: &Plan, point: &Point) -> Loaded {
+fn load(registry: &Registry, plan: &Plan, point: &Point) -> Loaded {
     let case = match &point.case {
-        Some(case) => Problem::load(case, &point.overrides),
-        None => Problem::load(&plan.case, &[plan.overrides.as_slice(), &point.overrides].concat()),
+        Some(case) => registry.load(case, &point.overrides),
+        None => registry.load(&plan.case, &[plan.overrides.as_slice(), &point.overrides].concat()),
     };
     let case = case.map(|(case, problem)| {
         let resolved = case.resolved();
@@ -226,11 +228,11 @@ fn solve(
     let folder = Folder::prepare(place, resolved, Mode { force: true, resume: true })?;
     let summary = write_running(&folder, case, problem, 1)?;
     let solving = Instant::now();
-    let result = crate::run(problem, &mut Listening(observer));
+    let result = problem.run(&mut Context::new(&mut Listening(observer)));
     let mut times = vec![solving.elapsed()];
     while times.len() < repeats && times.iter().sum::<Duration>() < ENOUGH && result.is_ok() && !observer.stop() {
         let again = Instant::now();
-        let _ = crate::run(problem, &mut Listening(observer));
+        let _ = problem.run(&mut Context::new(&mut Listening(observer)));
         times.push(again.elapsed());
     }
     times.sort();
@@ -239,7 +241,7 @@ fn solve(
         solve_s,
         total_s: start.elapsed().as_secs_f64(),
         peak_memory_mb: peak_memory_mb(),
-        work_units: problem.cells as f64,
+        work_units: problem.cells() as f64,
         repeats: times.len(),
         spread_s: (times.len() > 1).then(|| (times[3 * times.len() / 4] - times[times.len() / 4]).as_secs_f64()),
     };

@@ -14,8 +14,8 @@ use super::limits::{Class, Found, limits, solved};
 use super::mesh::ClosedForm;
 use super::range::{MOST, Varied, number_and_unit, parse};
 use super::{Judgement, Plan, Point, Row, StudyError};
+use crate::model::Registry;
 use crate::plot::{Axis, Curve, Figure, Marker, Panel, Scale};
-use crate::problem::Problem;
 use crate::result::Status;
 use crate::units::significant;
 
@@ -38,7 +38,7 @@ pub struct Request {
 ///
 /// # Errors
 /// [`StudyError::BadOver`] with the argument that cannot be read; [`StudyError::Case`].
-pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
+pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), StudyError> {
     let bad = |reason: &str| StudyError::BadOver { argument: request.over.join(" --over "), reason: reason.into() };
     let varied: Vec<Varied> = request.over.iter().map(|argument| parse(argument)).collect::<Result<_, _>>()?;
     let (first, second) = match &varied[..] {
@@ -73,8 +73,8 @@ pub fn plan(request: &Request) -> Result<(Plan, Judge), StudyError> {
         points,
         repeats: 1,
     };
-    let request = request.clone();
-    Ok((plan, Box::new(move |rows: &[Row]| judge(&request, &varied, rows))))
+    let (registry, request) = (registry.clone(), request.clone());
+    Ok((plan, Box::new(move |rows: &[Row]| judge(&registry, &request, &varied, rows))))
 }
 
 fn last(key: &str) -> &str {
@@ -82,25 +82,25 @@ fn last(key: &str) -> &str {
 }
 
 /// The class of a row, of which only the results are known.
-fn classify(request: &Request, row: &Row) -> Found {
+fn classify(registry: &Registry, request: &Request, row: &Row) -> Found {
     let failed = |class: Class| Found { class, error: None, reason: row.reason() };
     match (&row.error, row.status) {
         (Some(error), Status::Failed) if row.sha256.is_some() => failed(Class::of_code(&error.code)),
         (_, Status::Failed) => failed(Class::Refused),
         _ => {
             let overrides = [&request.overrides[..], &row.point.overrides].concat();
-            let problem = Problem::load(&request.case, &overrides).ok();
+            let problem = registry.load(&request.case, &overrides).ok();
             solved(request, problem.and_then(|(_, problem)| ClosedForm::of(&problem)), &row.results)
         }
     }
 }
 
-fn judge(request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
-    let found: Vec<Found> = rows.iter().map(|row| classify(request, row)).collect();
+fn judge(registry: &Registry, request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
+    let found: Vec<Found> = rows.iter().map(|row| classify(registry, request, row)).collect();
     let keys: Vec<&str> = varied.iter().map(|v| v.key.as_str()).collect();
     let unit = rows.first().and_then(|row| row.point.values.first()).and_then(|v| number_and_unit(v)).map(|p| p.1);
     let unit = unit.filter(|u| !u.is_empty()).map(|u| format!(" {u}")).unwrap_or_default();
-    let limits = limits(request, varied, rows, &found);
+    let limits = limits(registry, request, varied, rows, &found);
     let mut findings: Vec<(String, String)> = Vec::new();
     for limit in &limits {
         let label = if limit.series.is_empty() { "limit".into() } else { format!("limit, {}", limit.series) };
@@ -240,11 +240,17 @@ mod tests {
             (&["model.form=mixed,two-fluid"][..], "takes numbers"),
             (&["grid.cells=1,2", "flow.slope=1,2", "bed.level=1,2"], "one key or two"),
         ] {
-            let said = plan(&request("laminar_1d_ouriemi", over)).err().map(|e| e.to_string()).unwrap_or_default();
+            let said = plan(&crate::models::builtin(), &request("laminar_1d_ouriemi", over))
+                .err()
+                .map(|e| e.to_string())
+                .unwrap_or_default();
             assert!(said.contains(words), "{said}");
         }
-        let (plan, _) =
-            plan(&request("laminar_1d_ouriemi", &["grid.cells=24,48", "model.form=mixed,two-fluid"])).unwrap();
+        let (plan, _) = plan(
+            &crate::models::builtin(),
+            &request("laminar_1d_ouriemi", &["grid.cells=24,48", "model.form=mixed,two-fluid"]),
+        )
+        .unwrap();
         assert_eq!(plan.points.len(), 4);
         assert_eq!(plan.points[3].series, "form = two-fluid");
     }

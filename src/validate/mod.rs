@@ -7,8 +7,8 @@ use std::fmt::Write;
 
 use crate::case::checks::{Check, CheckKind, Limit, Tier};
 use crate::case::{CaseError, shipped};
+use crate::model::{Context, Registry};
 use crate::plot::{Axis, Curve, Dash, Figure, Marker, Panel};
-use crate::problem::Problem;
 use crate::result::{Failure, Outcome, Provenance, Watch, quantity};
 use crate::study::StudyError;
 use crate::study::limits::{self, Along};
@@ -78,27 +78,32 @@ pub enum ValidateError {
 ///
 /// # Errors
 /// A case that is wrong. A case whose method fails is red rows, not an error.
-pub fn validate(cases: &[String], tier: Tier, watch: &mut dyn Watch) -> Result<Vec<Row>, ValidateError> {
+pub fn validate(
+    registry: &Registry,
+    cases: &[String],
+    tier: Tier,
+    watch: &mut dyn Watch,
+) -> Result<Vec<Row>, ValidateError> {
     let names: Vec<String> =
         if cases.is_empty() { shipped::names().map(str::to_owned).collect() } else { cases.to_vec() };
     let mut rows = Vec::new();
     for name in &names {
-        let (case, problem) = Problem::load(name, &[]).map_err(Box::new)?;
+        let (case, problem) = registry.load(name, &[]).map_err(Box::new)?;
         let due = |of: Tier| of == Tier::Quick || tier == Tier::Full;
         let wanted = |check: &&Check| due(check.tier);
-        if case.scene.checks().iter().filter(wanted).count() > 0 {
-            let outcome = crate::run(&problem, watch);
-            rows.extend(case.scene.checks().iter().filter(wanted).map(|check| row(&case.name, check, &outcome)));
+        if case.checks().iter().filter(wanted).count() > 0 {
+            let outcome = problem.run(&mut Context::new(watch));
+            rows.extend(case.checks().iter().filter(wanted).map(|check| row(&case.name, check, &outcome)));
         }
-        if let Some(limit) = case.scene.limit().filter(|limit| due(limit.tier)) {
-            rows.push(limit_row(name, &case.name, limit)?);
+        if let Some(limit) = case.limit().filter(|limit| due(limit.tier)) {
+            rows.push(limit_row(registry, name, &case.name, limit)?);
         }
     }
     Ok(rows)
 }
 
 /// The limit of a case, found by bisection, against the one that it predicts.
-fn limit_row(path: &str, case: &str, limit: &Limit) -> Result<Row, ValidateError> {
+fn limit_row(registry: &Registry, path: &str, case: &str, limit: &Limit) -> Result<Row, ValidateError> {
     let request = Request {
         case: path.into(),
         overrides: Vec::new(),
@@ -106,7 +111,7 @@ fn limit_row(path: &str, case: &str, limit: &Limit) -> Result<Row, ValidateError
         tolerance: limit.within,
         predicted: Some(limit.expect),
     };
-    let found = match limits::first(&request)? {
+    let found = match limits::first(registry, &request)? {
         Along::Holds => Err(format!("every value of {} holds", limit.over)),
         Along::Fails(reason) => return Ok(red(case, limit, &format!("no value holds: {reason}"))),
         Along::Ends(found) if found.class != limit.beyond => {

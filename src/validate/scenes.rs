@@ -9,8 +9,7 @@ use std::time::Instant;
 use super::Verdict;
 use super::table::SCENES;
 use crate::advise::{self, Least};
-use crate::problem::Problem;
-use crate::result::Quiet;
+use crate::model::{Context, Registry};
 use crate::units::significant;
 
 /// What the answer of a scene is.
@@ -88,8 +87,8 @@ pub struct Judged {
 
 /// Asks for advice on each scene and solves what it and its rivals say.
 #[must_use]
-pub fn judge() -> Vec<Judged> {
-    SCENES.iter().map(|scene| one(*scene)).collect()
+pub fn judge(registry: &Registry) -> Vec<Judged> {
+    SCENES.iter().map(|scene| one(registry, *scene)).collect()
 }
 
 fn owned(set: &[&str]) -> Vec<String> {
@@ -97,13 +96,13 @@ fn owned(set: &[&str]) -> Vec<String> {
 }
 
 /// Solves a case: the quantity and the shortest of some times [s].
-fn solve(case: &str, set: &[String], quantity: &str) -> Found {
-    let (_, problem) = Problem::load(case, set).map_err(|error| error.to_string())?;
+fn solve(registry: &Registry, case: &str, set: &[String], quantity: &str) -> Found {
+    let (_, problem) = registry.load(case, set).map_err(|error| error.to_string())?;
     let mut best = f64::INFINITY;
     let mut value = None;
     for _ in 0..3 {
         let clock = Instant::now();
-        let outcome = crate::run(&problem, &mut Quiet).map_err(|failure| failure.error.to_string())?;
+        let outcome = Context::quiet(|context| problem.run(context)).map_err(|failure| failure.error.to_string())?;
         best = best.min(clock.elapsed().as_secs_f64());
         value = outcome.results.get(quantity);
         if best > 1.0 {
@@ -113,9 +112,9 @@ fn solve(case: &str, set: &[String], quantity: &str) -> Found {
     Ok((value.ok_or_else(|| format!("{quantity} is not defined"))?, best))
 }
 
-fn one(scene: Scene) -> Judged {
+fn one(registry: &Registry, scene: Scene) -> Judged {
     let truth = match scene.truth {
-        Truth::Exact(case, set) => solve(case, &owned(set), scene.quantity).map(|(value, _)| (value, 0.0)),
+        Truth::Exact(case, set) => solve(registry, case, &owned(set), scene.quantity).map(|(value, _)| (value, 0.0)),
         Truth::Known(value, error, _) => Ok((value, error)),
     };
     let known = truth.as_ref().map_or(0.0, |(value, error)| if *value == 0.0 { *error } else { (error / value).abs() });
@@ -125,12 +124,12 @@ fn one(scene: Scene) -> Judged {
         Answer { name: name.into(), found }
     };
     let set = owned(scene.set);
-    let advice = advise::advise(scene.case, &set, scene.tolerance);
+    let advice = advise::advise(registry, scene.case, &set, scene.tolerance);
     let advised = match &advice {
         Err(error) => Answer { name: "no advice".into(), found: Err(error.to_string()) },
-        Ok(advice) => advised(&scene, &advice.least, &set, &answer),
+        Ok(advice) => advised(registry, &scene, &advice.least, &set, &answer),
     };
-    let rival = |rival: &Rival| answer(rival.name, solve(rival.case, &owned(rival.set), scene.quantity));
+    let rival = |rival: &Rival| answer(rival.name, solve(registry, rival.case, &owned(rival.set), scene.quantity));
     let rivals: Vec<Answer> = scene.rivals.iter().map(rival).collect();
     let without = scene.kept.map(|(_, dropped)| rival(&dropped));
     let good = |answer: &Answer| answer.found.as_ref().is_ok_and(|(error, _)| *error <= scene.tolerance.hypot(known));
@@ -146,15 +145,21 @@ fn one(scene: Scene) -> Judged {
 }
 
 /// What the advised model makes of the scene; grains are not run: they are the truth there, with its error and time.
-fn advised(scene: &Scene, least: &Least, set: &[String], answer: &dyn Fn(&str, Found) -> Answer) -> Answer {
-    if let (Truth::Known(value, error, Some(run)), "coupled") = (scene.truth, least.kind) {
+fn advised(
+    registry: &Registry,
+    scene: &Scene,
+    least: &Least,
+    set: &[String],
+    answer: &dyn Fn(&str, Found) -> Answer,
+) -> Answer {
+    if let (Truth::Known(value, error, Some(run)), true) = (scene.truth, least.stochastic) {
         // A run that is the truth is as good as that is known.
         let Answer { name, found } = answer(least.kind, Ok(run));
         return Answer { name, found: found.map(|(deviation, time)| (deviation.max((error / value).abs()), time)) };
     }
     let found = match &least.overrides {
-        Some(overrides) => solve(least.template, overrides, scene.quantity),
-        None => solve(scene.case, set, scene.quantity),
+        Some(overrides) => solve(registry, least.template, overrides, scene.quantity),
+        None => solve(registry, scene.case, set, scene.quantity),
     };
     answer(least.kind, found)
 }
@@ -220,7 +225,7 @@ mod tests {
 
     #[test]
     fn advice_is_right_on_every_scene() {
-        let judged = judge();
+        let judged = judge(&crate::models::builtin());
         for row in &judged {
             assert_eq!(row.verdict, Verdict::Green, "{row:#?}");
         }

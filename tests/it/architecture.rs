@@ -163,11 +163,11 @@ fn a_wrong_import_is_seen() {
     let nested = "use crate::{\n    units::{self, Unit},\n    cli, plot::{a::{b, c}, d},\n};";
     assert_eq!(wrong("problem", 1, nested), "crate::cli crate::plot");
     assert_eq!(wrong("problem", 1, "fn f() { let x = crate::run(&p); }"), "crate::run");
-    assert_eq!(wrong("output", 1, "let x = crate::equations(&p); // crate::cli\nlet y = \"crate::cli\";"), "");
+    assert_eq!(wrong("output", 1, "let x = p.describe().equations; // crate::cli\nlet y = \"crate::cli\";"), "");
     assert_eq!(wrong("plot", 1, "let c = '\"'; let x: &'a str = crate::output::y;"), "crate::output");
     assert_eq!(wrong("case", 1, "use super::plot::Page;"), "super::plot");
     assert_eq!(wrong("case", 2, "use super::super::plot; use super::fault::Fault;"), "super::super::plot");
-    assert_eq!(wrong("run", 1, "use crate::continuum::exact; pub(crate) fn f() {}"), "");
+    assert_eq!(wrong("run", 1, "use crate::models::exact; pub(crate) fn f() {}"), "");
     assert_eq!(wrong("units", 1, "use crate::somewhere::x;"), "crate::somewhere");
 }
 

@@ -53,7 +53,7 @@ impl Twin {
 
     /// The parameters of the truth.
     fn truth(&self) -> Parameters {
-        Parameters::of(&self.request()).unwrap()
+        Parameters::of(&crate::support::REGISTRY, &self.request()).unwrap()
     }
 
     fn profile(&self) -> Profile {

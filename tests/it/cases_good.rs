@@ -2,15 +2,14 @@
 
 use std::fs;
 
-use bedload::case::{Case, shipped};
-use bedload::problem::Problem;
+use bedload::case::shipped;
 
-use crate::support::{Scratch, files, project};
+use crate::support::{Scratch, files, load, parse, project};
 
 /// The resolved case of a text that must be valid.
 #[track_caller]
 fn resolved(text: &str) -> String {
-    match Problem::check(Case::parse("case", "case", text.into(), &[])) {
+    match parse("case", text) {
         Ok((case, _)) => case.resolved(),
         Err(error) => panic!("{}", error.render(false)),
     }
@@ -57,10 +56,7 @@ fn the_order_of_tables_does_not_matter() {
 
 #[test]
 fn overrides_change_add_and_remove_values() {
-    let with = |overrides: &[&str]| {
-        let overrides: Vec<String> = overrides.iter().map(|&o| o.to_owned()).collect();
-        Problem::load("exact_1d_aussillous", &overrides).map(|(case, _)| case.resolved())
-    };
+    let with = |overrides: &[&str]| load("exact_1d_aussillous", overrides).map(|(case, _)| case.resolved());
     let plain = with(&[]).unwrap();
     assert_eq!(with(&["bed.level=0.03224"]).unwrap(), plain);
     assert!(with(&["bed.level = 30 mm"]).unwrap().contains("level = 0.03\n"));
@@ -114,10 +110,10 @@ fn shipped_cases_are_valid_and_resolve_to_themselves() {
     for name in shipped::names() {
         let said = scratch.bedload(["check", name]).exits(0).out;
         assert!(said.starts_with(&format!("{name}: valid, ")), "{said}");
-        let (case, problem) = Problem::load(name, &[]).unwrap();
+        let (case, problem) = load(name, &[""; 0]).unwrap();
         let once = case.resolved();
-        let again = Case::parse(name, "case.toml", once.clone(), &[]).unwrap_or_else(|e| panic!("{}", e.render(false)));
+        let (again, same) = parse(name, &once).unwrap_or_else(|e| panic!("{}", e.render(false)));
         assert_eq!(again.resolved(), once, "{name}");
-        assert_eq!(Problem::new(&again).unwrap(), problem, "{name}");
+        assert_eq!(format!("{:?}", same.solver()), format!("{:?}", problem.solver()), "{name}");
     }
 }

@@ -4,16 +4,12 @@
 use std::fs;
 use std::path::Path;
 
-use bedload::problem::Problem;
-use bedload::result::{Outcome, Quantity, Quiet, quantity as q};
-use bedload::run;
+use bedload::result::{Outcome, Quantity, quantity as q};
 
 use super::support::Scratch;
 
 fn solve(case: &str, settings: &[&str]) -> Outcome {
-    let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-    let (_, problem) = Problem::load(case, &settings).unwrap();
-    run(&problem, &mut Quiet).unwrap()
+    crate::support::solve(case, settings).unwrap()
 }
 
 /// The column `quantity` at the height `z`, linear between the levels.

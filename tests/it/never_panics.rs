@@ -5,14 +5,15 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 
 use bedload::case::{Case, CaseError};
+use bedload::model::{OnMesh, Problem};
+use bedload::models::two_fluid::{State, TwoFluid};
 use bedload::plot::{Page, profile_figures, report_html};
-use bedload::problem::{Model, Problem, State};
-use bedload::result::{Cost, Outcome, Provenance, Quiet, Summary};
+use bedload::result::{Cost, Outcome, Provenance, Summary};
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use serde_json::Map;
 
 use crate::mutate::{Input, input};
-use crate::support::Scratch;
+use crate::support::{REGISTRY, Scratch, run};
 
 /// How the inputs ended.
 #[derive(Debug, Default)]
@@ -70,7 +71,7 @@ fn numbers_are_sound(problem: &Problem, outcome: &Outcome) -> Result<(), TestCas
     }
     // An impact or a trial happens at one place: it has numbers and no levels.
     let Some(profile) = &outcome.profile else {
-        require!(matches!(problem.model, Model::Impact(_) | Model::Trial(_)), "no profile");
+        require!(["impact", "trial"].contains(&problem.kind), "no profile");
         return Ok(());
     };
     let z = profile.axis();
@@ -101,7 +102,7 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
     let stored: Result<Summary, _> = serde_json::from_str(&summary.to_json().to_string());
     require!(stored.as_ref().is_ok_and(|s| *s == summary), "the summary does not read back: {:?}", stored.err());
     let figures = outcome.profile.as_ref().map(|p| profile_figures(p, &summary)).unwrap_or_default();
-    let (equations, resolved) = (bedload::equations(problem), case.resolved());
+    let (equations, resolved) = (problem.describe().equations, case.resolved());
     let page = report_html(&Page {
         summary: &summary,
         figures: &figures,
@@ -117,7 +118,8 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
 }
 
 fn hold(tally: &Tally, Input { text, overrides }: &Input) -> Result<(), TestCaseError> {
-    let (case, mut problem) = match Problem::check(Case::parse("case", "case.toml", text.clone(), overrides)) {
+    let parse = |overrides: &[String]| REGISTRY.parse("case", "case.toml", text.clone(), overrides);
+    let (case, mut problem) = match parse(overrides) {
         Ok(both) => both,
         Err(error) => {
             count(&tally.refused);
@@ -125,19 +127,22 @@ fn hold(tally: &Tally, Input { text, overrides }: &Input) -> Result<(), TestCase
         }
     };
     let resolved = case.resolved();
-    let again = Case::parse("case", "case.toml", resolved.clone(), &[]);
+    let again = Case::parse(REGISTRY.kinds(), "case", "case.toml", resolved.clone(), &[]);
     require!(again.is_ok_and(|again| again.resolved() == resolved), "does not resolve to itself:\n{resolved}");
     // A run that follows grains, or a flow in time, takes as long as its case says: it is held up to its start.
-    let in_time = matches!(problem.model, Model::TwoFluid(flow) if flow.state == State::Transient);
-    if in_time || matches!(problem.model, Model::Grains(_) | Model::Coupled(_) | Model::Trial(_)) {
+    let in_time = matches!(problem.get(), Some(OnMesh { problem: TwoFluid { state: State::Transient, .. }, .. }));
+    if in_time || problem.stochastic && problem.kind != "impact" {
         count(&tally.followed);
-        require!(!bedload::equations(&problem).contains("NaN"), "NaN in the equations");
+        require!(!problem.describe().equations.contains("NaN"), "NaN in the equations");
         return Ok(());
     }
     // A section has the square of that.
-    let section = matches!(problem.model, Model::Duct(_) | Model::Cavity(_));
-    problem.cells = problem.cells.min(if section { 12 } else { 64 });
-    match bedload::run(&problem, &mut Quiet) {
+    let most = if problem.kind.starts_with("section") { 12 } else { 64 };
+    if problem.cells() > most {
+        let fewer = parse(&[&overrides[..], &[format!("grid.cells={most}")]].concat());
+        problem = fewer.map_err(|error| TestCaseError::fail(error.render(false)))?.1;
+    }
+    match run(&problem) {
         Ok(outcome) => {
             count(&tally.solved);
             numbers_are_sound(&problem, &outcome)?;
@@ -145,7 +150,7 @@ fn hold(tally: &Tally, Input { text, overrides }: &Input) -> Result<(), TestCase
             require!(overflowed.is_none(), "done with {overflowed:?}");
             let open = outcome.balances.iter().find(|b| b.relative.abs() > 1e-3);
             require!(open.is_none(), "done with {open:?}");
-            require!(!bedload::equations(&problem).contains("NaN"), "NaN in the equations");
+            require!(!problem.describe().equations.contains("NaN"), "NaN in the equations");
             if tally.solved.get() % 32 == 1 { page_is_sound(&problem, &case, &outcome) } else { Ok(()) }
         }
         Err(failure) => {

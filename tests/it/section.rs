@@ -4,14 +4,14 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use bedload::case::Case;
-use bedload::problem::{Method, Outline, Problem, Regularisation, SectionMethod, Smoothing};
-use bedload::result::{Outcome, Quiet};
-use bedload::section::duct::{Divided, Duct, Filling};
-use bedload::section::element::points;
-use bedload::section::numbers::Numbers;
-use bedload::section::solve::Solution;
-use bedload::section::{dual, newton};
+use bedload::closures::regularisation::{Regularisation, Smoothing};
+use bedload::models::section::duct::{Divided, Duct, Filling};
+use bedload::models::section::element::points;
+use bedload::models::section::numbers::Numbers;
+use bedload::models::section::solve::Solution;
+use bedload::models::section::{Method, Outline, SectionMethod};
+use bedload::models::section::{dual, newton};
+use bedload::result::Outcome;
 
 const SQUARE: Outline = Outline::Rectangle { width: 1.0 };
 const HOW: SectionMethod =
@@ -45,8 +45,7 @@ fn u_max(solution: &Solution) -> f64 {
 }
 
 fn run(case: &str, settings: &[&str]) -> Outcome {
-    let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-    bedload::run(&Problem::new(&Case::load(case, &settings).unwrap()).unwrap(), &mut Quiet).unwrap()
+    crate::support::solve(case, settings).unwrap()
 }
 
 /// L2 norms of the error of the velocity and of its gradient over half of the section.

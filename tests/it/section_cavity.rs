@@ -2,15 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use bedload::case::Case;
-use bedload::problem::{Problem, Regularisation};
-use bedload::result::{Outcome, Quiet};
-use bedload::section::cavity::Cavity;
-use bedload::section::{dual, newton};
+use bedload::closures::regularisation::Regularisation;
+use bedload::models::section::cavity::Cavity;
+use bedload::models::section::{dual, newton};
+use bedload::result::Outcome;
 
 fn run(case: &str, settings: &[&str]) -> Outcome {
-    let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-    bedload::run(&Problem::new(&Case::load(case, &settings).unwrap()).unwrap(), &mut Quiet).unwrap()
+    crate::support::solve(case, settings).unwrap()
 }
 
 fn get(outcome: &Outcome, name: &str) -> f64 {

@@ -3,11 +3,12 @@
 
 use std::ops::ControlFlow;
 
-use bedload::problem::{Outline, Regularisation};
-use bedload::section::cavity::Cavity;
-use bedload::section::duct::{Duct, Filling};
-use bedload::section::newton;
-use bedload::section::programme::{FIXED, Programme};
+use bedload::closures::regularisation::Regularisation;
+use bedload::models::section::Outline;
+use bedload::models::section::cavity::Cavity;
+use bedload::models::section::duct::{Duct, Filling};
+use bedload::models::section::newton;
+use bedload::models::section::programme::{FIXED, Programme};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 

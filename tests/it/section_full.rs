@@ -2,12 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use bedload::case::Case;
-use bedload::problem::{Outline, Problem, Regularisation, Smoothing};
-use bedload::result::Quiet;
-use bedload::section::duct::{Duct, Filling};
-use bedload::section::full::{Full, Whole};
-use bedload::section::newton;
+use bedload::closures::regularisation::{Regularisation, Smoothing};
+use bedload::models::section::Outline;
+use bedload::models::section::duct::{Duct, Filling};
+use bedload::models::section::full::{Full, Whole};
+use bedload::models::section::newton;
+
+use crate::support::{load, solve};
 
 const PAPER: Regularisation = Regularisation { law: Smoothing::Simple, lambda: 1e-6 };
 
@@ -48,17 +49,14 @@ fn a_model_that_has_only_a_section_refuses_the_whole_duct() {
         &["flow.shape=planes"],
         &["model.method=first-order", "regularisation={ law = \"none\" }"],
     ] {
-        let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-        let refused = Problem::check(Case::load("section_3d_square_bed", &settings)).unwrap_err();
+        let refused = load("section_3d_square_bed", settings).unwrap_err();
         assert!(refused.render(false).contains("not-whole"), "{}", refused.render(false));
     }
 }
 
 #[test]
 fn a_case_reports_how_far_the_whole_duct_is_from_its_section() {
-    let settings = ["grid.cells=8", "grid.along=2"].map(str::to_owned);
-    let problem = Problem::new(&Case::load("section_3d_square_bed", &settings).unwrap()).unwrap();
-    let results = bedload::run(&problem, &mut Quiet).unwrap().results;
+    let results = solve("section_3d_square_bed", &["grid.cells=8", "grid.along=2"]).unwrap().results;
     for name in ["section_deviation", "cross_flow", "uneven_flow"] {
         assert!(results.get(name).unwrap() < 1e-8, "{name}: {:?}", results.get(name));
     }

@@ -1,15 +1,10 @@
 //! Sheet flow, from outside: the published equations re-evaluated on the profiles that a run returns, balances, agreement of
 //! the methods, what a user may change, and the errors.
 
-use bedload::case::Case;
-use bedload::problem::Problem;
-use bedload::result::{Failure, Outcome, Profile, Quiet, SolveError, quantity as q};
-use bedload::run;
+use bedload::result::{Failure, Outcome, Profile, SolveError, quantity as q};
 
 fn attempt(case: &str, settings: &[&str]) -> Result<Outcome, Failure> {
-    let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
-    let case = Case::load(case, &settings).unwrap();
-    run(&Problem::new(&case).unwrap(), &mut Quiet)
+    crate::support::solve(case, settings)
 }
 
 fn solve(case: &str, settings: &[&str]) -> Outcome {

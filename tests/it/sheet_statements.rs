@@ -2,15 +2,12 @@
 //! what a run says of its lid and its bottom, by hand.
 //! `cargo test --release --test it sheet_statements -- --nocapture` prints the numbers of docs/sheet-flow.md.
 
-use bedload::case::Case;
-use bedload::problem::Problem;
-use bedload::result::{Outcome, Quiet, quantity as q};
-use bedload::run;
+use bedload::result::{Outcome, quantity as q};
 
 const RUNS: [&str; 3] = ["sheet_1d_sumer82", "sheet_1d_sumer91", "sheet_1d_sumer99"];
 
 fn solve(case: &str, settings: &[String]) -> Outcome {
-    run(&Problem::new(&Case::load(case, settings).unwrap()).unwrap(), &mut Quiet).unwrap()
+    crate::support::solve(case, settings).unwrap()
 }
 
 fn get(outcome: &Outcome, name: &str) -> f64 {

@@ -5,9 +5,38 @@ use std::ffi::OsStr;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::sync::LazyLock;
 
+use bedload::case::{Case, CaseError};
+use bedload::model::{Checked, Context, Problem, Registry};
+use bedload::result::{Failure, Outcome, Quiet};
 use serde_json::Value;
 use tempfile::TempDir;
+
+/// The models of the program.
+pub static REGISTRY: LazyLock<Registry> = LazyLock::new(bedload::models::builtin);
+
+/// A case, a file or a shipped one, with settings.
+pub fn load(case: &str, set: &[impl AsRef<str>]) -> Result<Checked, CaseError> {
+    let set: Vec<String> = set.iter().map(|s| s.as_ref().to_owned()).collect();
+    REGISTRY.load(case, &set)
+}
+
+/// The text of a case, as a file of its name would hold it.
+pub fn parse(name: &str, text: &str) -> Result<(Case, Problem), CaseError> {
+    REGISTRY.parse(name, "case.toml", text.to_owned(), &[])
+}
+
+/// Solves a problem that nobody watches.
+pub fn run(problem: &Problem) -> Result<Outcome, Failure> {
+    problem.run(&mut Context::new(&mut Quiet))
+}
+
+/// What becomes of a case with settings.
+pub fn solve(case: &str, set: &[impl AsRef<str>]) -> Result<Outcome, Failure> {
+    let (_, problem) = load(case, set).unwrap_or_else(|error| panic!("{}", error.render(false)));
+    run(&problem)
+}
 
 /// What a command answered.
 #[derive(Debug)]

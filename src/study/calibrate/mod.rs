@@ -22,6 +22,7 @@ pub use target::{Column, Level, Target};
 use super::converge::Judge;
 use super::{Judgement, Next, Observer, Plan, Point, StudyError};
 use crate::compare::{Subject, data};
+use crate::model::Registry;
 use crate::numerics::least_squares::Statistics;
 use crate::output::fingerprint;
 use crate::result::quantity::Quantity;
@@ -73,8 +74,8 @@ impl Watch for Listening<'_> {
 ///
 /// # Errors
 /// [`StudyError::Case`], [`StudyError::BadFit`], [`StudyError::BadSigma`], [`StudyError::BadData`], [`StudyError::Data`].
-pub fn plan(request: &Request) -> Result<(Plan, Next), StudyError> {
-    let parameters = Parameters::of(request)?;
+pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Next), StudyError> {
+    let parameters = Parameters::of(registry, request)?;
     let measured = data::read(request.data.as_ref())?;
     let text = std::fs::read(&request.data).unwrap_or_default();
     let start: Vec<f64> = parameters.start.iter().map(|p| p.ln()).collect();

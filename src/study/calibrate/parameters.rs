@@ -2,14 +2,15 @@
 
 use super::{Listening, MISFIT, Request, Target, report};
 use crate::case::nearest;
+use crate::model::{Context, Registry};
 use crate::numerics::least_squares::{self, Fit};
-use crate::problem::{Model, Problem};
 use crate::result::{ErrorReport, Profile, Snapshot, Watch};
 use crate::study::{Observer, StudyError};
 
 /// The numbers of a case that are fitted.
 #[derive(Clone, Debug)]
 pub struct Parameters {
+    registry: Registry,
     case: String,
     overrides: Vec<String>,
     /// `table.key`
@@ -31,10 +32,10 @@ impl Parameters {
     /// # Errors
     /// [`StudyError::Case`], and [`StudyError::BadFit`] for a key that holds no positive number, for bounds that are none,
     /// that the case refuses or that do not enclose its value, and for grains, whose noise hides the derivative.
-    pub fn of(request: &Request) -> Result<Self, StudyError> {
-        let (case, problem) = Problem::load(&request.case, &request.overrides).map_err(Box::new)?;
+    pub fn of(registry: &Registry, request: &Request) -> Result<Self, StudyError> {
+        let (case, problem) = registry.load(&request.case, &request.overrides).map_err(Box::new)?;
         let bad = |key: &String, (reason, hint): Refused| StudyError::BadFit { key: key.clone(), reason, hint };
-        if matches!(problem.model, Model::Grains(_) | Model::Coupled(_) | Model::Impact(_) | Model::Trial(_)) {
+        if problem.stochastic {
             let reason = format!("{} follows single grains, whose noise hides what a small change does", problem.kind);
             let hint = "fit a continuum model of the same scene, or look at the grains with bedload sweep".to_owned();
             return Err(bad(&request.fit.join(" "), (reason, hint)));
@@ -46,7 +47,8 @@ impl Parameters {
         numbers.retain(|(key, _)| !apart(key));
         let (case, overrides) = (request.case.clone(), request.overrides.clone());
         let (keys, names, start) = (Vec::new(), Vec::new(), Vec::new());
-        let mut all = Self { case, overrides, keys, names, start, bounds: Vec::new() };
+        let registry = registry.clone();
+        let mut all = Self { registry, case, overrides, keys, names, start, bounds: Vec::new() };
         for argument in &request.fit {
             let (key, range) = argument.split_once('=').map_or((argument.as_str(), None), |(k, r)| (k, Some(r)));
             let (key, start) = find(key.trim(), &numbers, &others).map_err(|refused| bad(argument, refused))?;
@@ -70,12 +72,13 @@ impl Parameters {
         };
         let value = |side: &str, text: &str| {
             let set = format!("{key}={}", text.trim());
-            let (case, _) = Problem::load(&self.case, &[&self.overrides[..], &[set]].concat()).map_err(|error| {
-                let first = error.reports().into_iter().next();
-                let (message, allowed) = first.map_or_else(Default::default, |r| (r.message, r.allowed));
-                let allowed = allowed.map_or_else(hint, |allowed| format!("allowed: {allowed}"));
-                (format!("the case refuses the {side} bound {}: {message}", text.trim()), allowed)
-            })?;
+            let (case, _) =
+                self.registry.load(&self.case, &[&self.overrides[..], &[set]].concat()).map_err(|error| {
+                    let first = error.reports().into_iter().next();
+                    let (message, allowed) = first.map_or_else(Default::default, |r| (r.message, r.allowed));
+                    let allowed = allowed.map_or_else(hint, |allowed| format!("allowed: {allowed}"));
+                    (format!("the case refuses the {side} bound {}: {message}", text.trim()), allowed)
+                })?;
             let found = case.numbers().0.into_iter().find(|(known, _)| known == key).map(|(_, value)| value);
             found.filter(|x| *x > 0.0).ok_or_else(|| (format!("the {side} bound \"{text}\" is not positive"), hint()))
         };
@@ -111,10 +114,10 @@ impl Parameters {
     /// Why the case is refused, or fails.
     pub fn profile(&self, ln: &[f64], watch: &mut dyn Watch) -> Result<Profile, ErrorReport> {
         let overrides = [&self.overrides[..], &self.settings(ln)].concat();
-        let (_, problem) = Problem::load(&self.case, &overrides).map_err(|error| {
+        let (_, problem) = self.registry.load(&self.case, &overrides).map_err(|error| {
             error.reports().into_iter().next().unwrap_or_else(|| report("refused", error.to_string()))
         })?;
-        let outcome = crate::run(&problem, watch).map_err(|failure| ErrorReport {
+        let outcome = problem.run(&mut Context::new(watch)).map_err(|failure| ErrorReport {
             hint: Some(failure.error.hint()),
             ..report(failure.error.code(), failure.error.to_string())
         })?;

@@ -1,0 +1,109 @@
+//! What a model is: the trait, the registry of models, and the checked problem that the rest of the program handles.
+//!
+//! ```text
+//!  case (text) ─► Registry ─► Model::build (tables ─► problem in SI) ─► Solve::solve ─► Outcome
+//! ```
+//!
+//! Everything above this module, the studies and the command line, knows these traits and never one model. A model is written
+//! with its own types ([`Model`]) and loses them once a run ([`Solve`] is object-safe).
+
+mod context;
+mod offer;
+mod problem;
+mod registry;
+
+use std::any::Any;
+use std::fmt::Debug;
+
+use crate::case::{Fault, Tables};
+use crate::closures::Info;
+use crate::result::{CheckpointError, Failure, Outcome};
+
+pub use context::Context;
+pub use offer::{BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, PACKED, Term, TermTest, TurbulentScene};
+pub use problem::{Checked, Problem};
+pub use registry::{Entry, Registry, checked, read};
+
+/// Faults found while values are compared with each other, by path in the case.
+pub type Faults = Vec<(&'static str, Fault)>;
+
+/// What a model is called and how it behaves, before there is a problem.
+#[derive(Clone, Copy, Debug)]
+pub struct ModelInfo {
+    /// `kind` or `kind/solution`, as in `[model]` of a case
+    pub name: &'static str,
+    /// whether its results are means of fluctuating quantities
+    pub stochastic: bool,
+}
+
+/// A model: a checked problem in SI, and how the tables of its cases become one. [`Entry::of`] registers it.
+pub trait Model: Solve + Sized {
+    /// Its name.
+    const INFO: ModelInfo;
+    /// The tables of its cases.
+    type Tables: Tables;
+
+    /// Checks what no schema can, values against each other, and makes the problem. `None` where a fault leaves none.
+    fn build(tables: &Self::Tables, faults: &mut Faults) -> Option<Self>;
+
+    /// The case with which this model would answer `flow` to the relative error `tolerance`, if it can.
+    fn offer(_flow: &Flow, _tolerance: f64) -> Option<Offer> {
+        None
+    }
+}
+
+/// A problem with the number of cells on which it is solved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OnMesh<P> {
+    /// what is solved
+    pub problem: P,
+    /// number of cells
+    pub cells: usize,
+}
+
+/// What can be done with a problem, whatever its model.
+pub trait Solve: Any + Debug + Send + Sync {
+    /// Solves it.
+    ///
+    /// # Errors
+    /// [`Failure`]: why the method failed, with the numbers that say so and the last good state.
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure>;
+
+    /// The equations that are solved, with the numbers filled in, and the laws in them.
+    fn describe(&self) -> Description;
+
+    /// Number of levels of the profile, or of mobile grains.
+    fn cells(&self) -> usize;
+
+    /// The flow that this problem is one model of; `None` where no other model answers it.
+    ///
+    /// # Errors
+    /// [`Failure`] where the flow is known only from its solution and there is none.
+    fn flow(&self) -> Result<Option<Flow>, Failure> {
+        Ok(None)
+    }
+
+    /// What in the model that flow may not need.
+    fn terms(&self) -> Vec<Term> {
+        Vec::new()
+    }
+
+    /// Whether an unfinished run of this problem may go on from `checkpoint`; `None` for a model without checkpoints.
+    ///
+    /// # Errors
+    /// [`CheckpointError`]: it is of another case, another version, or damaged.
+    fn accepts(&self, _checkpoint: &[u8]) -> Option<Result<(), CheckpointError>> {
+        None
+    }
+}
+
+/// What a problem is, for readers.
+#[derive(Clone, Debug, Default)]
+pub struct Description {
+    /// the form of the model where it has several: `mixed`, `two-fluid`
+    pub form: Option<&'static str>,
+    /// the equations as text, numbers filled in
+    pub equations: String,
+    /// the laws in them
+    pub laws: Vec<&'static Info>,
+}

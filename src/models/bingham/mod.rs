@@ -1,0 +1,70 @@
+//! A Bingham fluid between two planes, solved numerically, regularised or with the exact yield.
+
+mod solve;
+
+pub use solve::{Solution, equations, run};
+
+use crate::case::tables::{BinghamFluid, BinghamKindModel, PlaneFlow, RegularisationTable, YieldGrid};
+use crate::closures::regularisation::Regularisation;
+use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::models::exact::bingham::{BinghamPlane, plane};
+use crate::models::yield_size::size;
+use crate::result::{Failure, Outcome};
+use crate::tables;
+
+tables! {
+    /// Bingham fluid between two planes: regularised, or with the exact yield.
+    pub struct BinghamTables {
+        /// The material.
+        fluid: BinghamFluid,
+        /// Geometry and drive.
+        flow: PlaneFlow,
+        /// The model.
+        model: BinghamKindModel,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the solver.
+        #[serde(default)]
+        grid: YieldGrid,
+    }
+}
+
+/// A Bingham fluid that is solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegularisedPlane {
+    /// the flow
+    pub plane: BinghamPlane,
+    /// how the yield stress is smoothed; lambda in units of [`BinghamPlane::shear_scale`]
+    pub regularisation: Regularisation,
+    /// whether nodes lie on the edges of the plug
+    pub yield_node: bool,
+}
+
+impl Model for OnMesh<RegularisedPlane> {
+    const INFO: ModelInfo = ModelInfo { name: "bingham", stochastic: false };
+    type Tables = BinghamTables;
+
+    fn build(tables: &BinghamTables, faults: &mut Faults) -> Option<Self> {
+        let size = size(&tables.regularisation, faults);
+        let plane = plane(&tables.fluid, &tables.flow)?;
+        let lambda = size?.to_scaled(plane.shear_scale());
+        let regularisation = Regularisation { law: tables.regularisation.law, lambda };
+        let problem = RegularisedPlane { plane, regularisation, yield_node: tables.grid.yield_node };
+        Some(Self { problem, cells: tables.grid.cells })
+    }
+}
+
+impl Solve for OnMesh<RegularisedPlane> {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        run(&self.problem, self.cells, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        Description { form: None, equations: equations(&self.problem), laws: Vec::new() }
+    }
+
+    fn cells(&self) -> usize {
+        self.cells
+    }
+}

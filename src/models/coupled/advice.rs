@@ -1,0 +1,109 @@
+//! Grains in a fluid in the terms that other models share: the flow, what it may not need, the case that answers another one.
+
+use std::f64::consts::PI;
+
+use super::{Coupled, Surface};
+use crate::closures::fluctuation::Fluctuation;
+use crate::dem::Bottom;
+use crate::model::{BULK_FRICTION, COLLISIONS, Effort, Model, Offer, PACKED, Term, TermTest, TurbulentScene};
+use crate::units::significant;
+
+const MAURIN: &str = "Maurin et al. (2015); docs/coupled.md";
+const CHASSAGNE: &str = "Chassagne et al. (2023)";
+/// Shields number from which eddies make no difference to grains (docs/coupled.md: from 0.1 on the rates agree).
+const EDDIES: f64 = 0.1;
+/// Stiffness over weight and size of a grain, k_n/((rho_p - rho_f) g d^2), of the reference flow.
+const STIFFNESS: f64 = 1e4 / (1500.0 * 9.81 * 6e-3 * 6e-3);
+
+/// Thickness of the packed bed [m].
+fn thickness(flow: &Coupled) -> f64 {
+    let bed = &flow.bed;
+    let across = if bed.side_walls { bed.size[1].min(bed.d) } else { bed.size[1] };
+    let volume = bed.mobile as f64 * PI / 6.0 * bed.d.powi(3);
+    volume / (PACKED * bed.size[0] * across.max(bed.size[1]))
+}
+
+pub(super) fn scene(flow: &Coupled) -> TurbulentScene {
+    let bed = &flow.bed;
+    let depth = match flow.surface {
+        Surface::Depth(depth) => depth,
+        Surface::Height(height) => height - thickness(flow),
+    };
+    TurbulentScene {
+        kind: Coupled::INFO.name,
+        rho_f: flow.rho_f,
+        rho_p: bed.rho_p,
+        nu: flow.nu(),
+        d: bed.d,
+        g: bed.g,
+        depth,
+        sine: bed.beta.sin(),
+        theta: flow.rho_f * bed.g * depth * bed.beta.sin() / flow.stress_scale(),
+        mu_s: BULK_FRICTION,
+        contacts: Some((bed.contact.mu, bed.contact.e_n)),
+        settling: None,
+        walls: bed.side_walls,
+        grains: Some((bed.contact.k_n, thickness(flow) / bed.d)),
+    }
+}
+
+pub(super) fn terms(grains: &Coupled) -> Vec<Term> {
+    let (bed, flow) = (&grains.bed, scene(grains));
+    let known = |what, source, keep, because: String| Term {
+        what,
+        source,
+        test: TermTest::Known { keep, because },
+        dropped: None,
+    };
+    // Walls that are as rough as the bed would leave it this share of the stress, smooth ones leave more.
+    let share = if flow.walls { 1.0 / (1.0 + 2.0 * flow.depth / bed.size[1]) } else { 1.0 };
+    let keep = flow.theta * share < EDDIES;
+    let has = if grains.fluctuation == Fluctuation::None { "; this case has none" } else { "" };
+    let because = format!(
+        "θ at the bed {} {EDDIES}: near the onset they decide, beyond they change less than the error of a mean{has}",
+        if keep { "may be below" } else { "is above" }
+    );
+    let mut terms = vec![known("eddies on the grains", MAURIN, keep, because)];
+    let walls = if flow.walls { "their friction decides the rate of a narrow flume" } else { "there are none" };
+    terms.push(known("side walls", MAURIN, flow.walls, walls.into()));
+    let across = bed.size[0].min(if flow.walls { bed.size[0] } else { bed.size[1] }) / flow.d;
+    let because = format!(
+        "{} d: 10 d squared, or 100 d of a flume, is converged within the error of 25 s",
+        significant(across, 3)
+    );
+    terms.push(known("large cell", MAURIN, false, because));
+    if bed.bottom == Bottom::Slice {
+        let deep = thickness(grains) / bed.d - flow.layers();
+        let because = format!("{} layers lie under the moving ones", significant(deep.max(0.0), 2));
+        terms.push(known("deep bed", CHASSAGNE, deep < 3.0, because));
+    }
+    terms
+}
+
+pub(super) fn offer(scene: &TurbulentScene, tolerance: f64) -> Offer {
+    let theta = significant(scene.theta, 3);
+    let because = if scene.walls {
+        "no other model has the side walls".into()
+    } else if !scene.at_least(COLLISIONS) {
+        format!("θ = {theta} < {COLLISIONS}: single grains move, no continuum holds")
+    } else {
+        let wanted = format!("{} %", significant(100.0 * tolerance, 2));
+        format!("θ = {theta}, and no continuum is known to be within {wanted} of the grains here")
+    };
+    let mut own = vec![
+        format!("flow.depth={:?}", scene.depth),
+        format!("flow.slope={:?}", scene.sine),
+        format!("flow.length={:?}", 30.0 * scene.d),
+        format!("flow.width={:?}", 30.0 * scene.d),
+        format!("closures.contact.k_n={:?}", STIFFNESS * (scene.rho_p - scene.rho_f) * scene.g * scene.d * scene.d),
+    ];
+    if let Some((mu, e)) = scene.contacts {
+        own.extend([format!("closures.contact.mu={mu:?}"), format!("closures.contact.e_n={e:?}")]);
+    }
+    Offer {
+        effort: Effort::Minutes,
+        because,
+        template: "coupled_3d_chassagne_quick",
+        overrides: (scene.kind != Coupled::INFO.name).then(|| [scene.matter(), own].concat()),
+    }
+}

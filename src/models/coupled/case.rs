@@ -1,0 +1,257 @@
+//! The tables that only a coupled flow of grains and fluid has.
+
+use crate::case::tables::{Fluid, Grains};
+use crate::tables;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::case::tables::SlopeDefinition;
+use crate::closures::contact::Contact;
+use crate::closures::drag::GrainDrag;
+use crate::closures::fluctuation::Fluctuation;
+use crate::closures::mixing_length::MixingLength;
+use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::side_wall::SideWall;
+use crate::dem::{Bottom, Discrete};
+
+/// A bed of grains that is let fall into place.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CoupledBed {
+    /// Layers of mobile grains N_l: their number is layers times the diameters along the flow, times those across it that the
+    /// width has room for.
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub layers: f64,
+    /// What the bed rests on.
+    #[serde(default)]
+    pub bottom: Bottom,
+    /// Largest elevation of the fixed grains over their mean, on bottom = "steps"; a third of the diameter where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "minimum" = 0.0, "maximum" = 1.0))]
+    pub relief: Option<f64>,
+    /// Step between the elevations of the fixed grains; the relief itself where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub relief_step: Option<f64>,
+}
+
+/// The channel: periodic along x, its tilt, and the free surface. Exactly one of height and depth.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CoupledFlow {
+    /// Period along the flow.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub length: f64,
+    /// Period across the flow, or the distance of the side walls.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub width: f64,
+    /// Whether there are side walls, with the friction of the grains, instead of a period.
+    #[serde(default)]
+    pub side_walls: bool,
+    /// Free surface h over the mean centre of the fixed grains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e2))]
+    pub height: Option<f64>,
+    /// Free surface over the level of the bed at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e2))]
+    pub depth: Option<f64>,
+    /// Drive: the slope, as slope_definition says.
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub slope: f64,
+    /// What the number given as slope is: papers differ.
+    pub slope_definition: SlopeDefinition,
+    /// Acceleration of gravity.
+    #[serde(default = "gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+}
+
+fn gravity() -> f64 {
+    9.81
+}
+
+/// The model: grains one by one in a fluid of one dimension.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CoupledModel {
+    /// What kind of model: every grain is followed in a column of fluid.
+    pub kind: CoupledKind,
+}
+
+/// Every grain is followed in a column of fluid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum CoupledKind {
+    /// Every grain is followed in a column of fluid.
+    Coupled,
+}
+
+/// Laws of the coupled flow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CoupledClosures {
+    /// Contact of two grains, or of a grain with a wall.
+    pub contact: Contact,
+    /// Drag on single grains.
+    pub drag: GrainDrag,
+    /// Mixing length of the turbulence.
+    pub mixing_length: MixingLength,
+    /// Effective viscosity of the mixture.
+    #[serde(default = "clear")]
+    pub mixture_viscosity: MixtureViscosity,
+    /// Friction of the fluid on the side walls.
+    #[serde(default)]
+    pub side_wall: SideWall,
+    /// Eddies that a grain meets.
+    #[serde(default)]
+    pub fluctuation: Fluctuation,
+}
+
+fn clear() -> MixtureViscosity {
+    MixtureViscosity::Clear
+}
+
+/// How the fluid is stepped.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FluidScheme {
+    /// Backward Euler with the drag: stable with any step.
+    #[default]
+    Implicit,
+    /// Forward Euler: stable for steps below h^2/(2 nu) and 2 (1 - phi) rho_f/beta alone.
+    Explicit,
+}
+
+/// How grains are moved, how often the fluid is solved, and what is averaged.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CoupledDiscrete {
+    /// Simulated time after the bed has come to rest, transient included.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
+    pub duration: f64,
+    /// The run ends when the standard error of the transport rate is below this share of it; where it is left out it runs for
+    /// its whole duration.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub known_to: Option<f64>,
+    /// Time between two solutions of the fluid.
+    #[serde(default = "period")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub coupling_period: f64,
+    /// Steps of the fluid in that time.
+    #[serde(default = "one")]
+    #[schemars(extend("minimum" = 1, "maximum" = 10_000))]
+    pub fluid_steps: u32,
+    /// How the fluid is stepped: explicit steps are there to show where they fail.
+    #[serde(default)]
+    pub fluid_scheme: FluidScheme,
+    /// Time between two samples of the means; at least the coupling period.
+    #[serde(default = "sample")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub sample_period: f64,
+    /// Longest time that the grains are given to fall and come to rest.
+    #[serde(default = "settle")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub settle: f64,
+    /// Time step of the grains; derived from the stability limit where it is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub time_step: Option<f64>,
+    /// Whether a time step beyond the limits of contacts and drag is taken nevertheless.
+    #[serde(default)]
+    pub force_time_step: bool,
+    /// The deep bed is held where a layer of one diameter goes less than this share of a diameter in hold_period, the mean of its
+    /// grains, and woken when the layer above moves more. Without it all grains are moved.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub hold_creep: Option<f64>,
+    /// Time between two looks at what may be held.
+    #[serde(default = "hold_period")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    pub hold_period: f64,
+    /// Time from which on layers are held.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 1e5))]
+    pub hold_after: f64,
+    /// Derived time step over the stability limit of a grain in a packing.
+    #[serde(default = "safety")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub safety: f64,
+    /// Listed neighbours are nearer than a diameter and this share of it.
+    #[serde(default = "skin")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.01, "maximum" = 1.0))]
+    pub skin: f64,
+    /// Height of the cells of the fluid and of the averages over the diameter.
+    #[serde(default = "slice")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.005, "maximum" = 2.0))]
+    pub slice: f64,
+    /// Number from which everything random is drawn.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 1_000_000))]
+    pub seed: u32,
+    /// Pictures of the grains for ParaView, evenly spaced over the duration.
+    #[serde(default)]
+    #[schemars(extend("minimum" = 0, "maximum" = 10_000))]
+    pub frames: u32,
+}
+
+impl CoupledDiscrete {
+    /// The part that moves and averages grains.
+    #[must_use]
+    pub fn grains(&self) -> Discrete {
+        Discrete {
+            duration: self.duration,
+            averaged: 1.0,
+            settle: self.settle,
+            time_step: self.time_step,
+            safety: self.safety,
+            force_time_step: self.force_time_step,
+            skin: self.skin,
+            slice: self.slice,
+            seed: self.seed,
+            frames: self.frames,
+        }
+    }
+}
+
+fn period() -> f64 {
+    1e-2
+}
+fn one() -> u32 {
+    1
+}
+fn sample() -> f64 {
+    0.1
+}
+fn settle() -> f64 {
+    2.0
+}
+fn hold_period() -> f64 {
+    0.2
+}
+
+fn safety() -> f64 {
+    0.7
+}
+fn skin() -> f64 {
+    0.3
+}
+fn slice() -> f64 {
+    1.0 / 30.0
+}
+
+tables! {
+    /// Grains with friction, grain by grain, in a turbulent fluid of one dimension that drives them.
+    pub struct CoupledTables {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: CoupledBed,
+        /// The channel, its tilt and the free surface.
+        flow: CoupledFlow,
+        /// The model.
+        model: CoupledModel,
+        /// Laws.
+        closures: CoupledClosures,
+        /// How grains are moved, how often the fluid is solved, and what is averaged.
+        discrete: CoupledDiscrete,
+    }
+}

@@ -1,0 +1,26 @@
+//! Grains in a fluid: Maurin et al. (2015). The grains are those of [`super::engine`], the fluid that of [`crate::column`].
+//!
+//! ```text
+//!  grains ─► exchange.look (averages: φ, drag, what was given) ─► exchange.advance (column) ─► felt ─► grains
+//!                                                     record (samples, blocks) ─► outcome
+//! ```
+
+mod advice;
+pub mod case;
+mod exchange;
+mod felt;
+mod hold;
+mod limits;
+mod outcome;
+mod problem;
+mod record;
+mod run;
+mod scene;
+#[cfg(test)]
+mod tests;
+
+pub use case::FluidScheme;
+pub use exchange::Exchange;
+pub use felt::{Dragged, Felt};
+pub use problem::{Coupled, Surface};
+pub use run::{accepts, equations, run};

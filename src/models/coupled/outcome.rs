@@ -1,0 +1,170 @@
+//! What a coupled run reports: profiles with their errors, transport rate, Shields numbers, balances.
+
+use super::hold::Hold;
+use super::record::Known;
+use super::run::Run;
+use crate::closures::contact::linear_spring::RIGID_RANGE;
+use crate::closures::drag::dallavalle_grain::RANGE as HINDRANCE_RANGE;
+use crate::dem::budget;
+use crate::dem::outcome::{bed_level, nothing, profile};
+use crate::dem::stability;
+use crate::result::{Balance, Outcome, Results, Series, SolveError, Status, Validity, quantity as q};
+
+/// Everything that a coupled run has to say.
+///
+/// # Errors
+/// [`SolveError::NotFinite`] if a number is none.
+pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError> {
+    let (flow, bed) = (run.flow, &run.flow.bed);
+    let (first, over) = run.record.transient();
+    let averages = run.averages.after(first);
+    let mut averaged = averages.profile();
+    let blind = run.hold.as_ref().and_then(Hold::blind);
+    if let Some(level) = blind {
+        let below = averaged.z.iter().take_while(|z| **z < level).count();
+        let columns = [&mut averaged.shear, &mut averaged.pressure, &mut averaged.flux, &mut averaged.contact_loss];
+        columns.into_iter().for_each(|column| column.iter_mut().take(below).for_each(|mean| *mean = None));
+    }
+    let fluid = run.record.fluid(first);
+    let mut results = Results::default();
+    results.set(&q::GRAINS, bed.mobile as f64);
+    let stress = flow.stress_scale();
+    let velocity = ((bed.rho_p / flow.rho_f - 1.0) * bed.g * bed.d).sqrt();
+    let grain = std::f64::consts::PI / 6.0 * bed.d.powi(3);
+    let rate = run.record.mean(3, first);
+    let mut set = |quantity, known: Option<Known>, scale: f64| match known {
+        Some(Known { mean, error }) => results.set_mean(quantity, scale * mean, scale * error),
+        None => results.undefined(quantity, "nothing was sampled yet"),
+    };
+    set(&q::TRANSPORT_RATE, rate, 1.0);
+    set(&q::TRANSPORT_RATE_DIMENSIONLESS, rate, 1.0 / (bed.d * velocity));
+    set(&q::TRANSPORT_RATE_BEADS, rate, bed.size[1] / grain);
+    set(&q::TRANSPORT_RATE_MASS, rate, bed.rho_p);
+    set(&q::BED_LEVEL, run.record.mean(5, first), 1.0);
+    set(&q::MEAN_VELOCITY, run.record.mean(6, first), 1.0);
+    // The largest of the mean stress; its error is that of the cell where it is.
+    let largest = fluid.iter().map(|cell| cell[1]).reduce(|a, b| if b.mean > a.mean { b } else { a });
+    set(&q::SHIELDS_TURBULENT, largest, 1.0 / stress);
+    let star = largest.filter(|known| known.mean > 0.0).map(|Known { mean, error }| {
+        let u = (mean / flow.rho_f).sqrt();
+        Known { mean: u, error: 0.5 * u * error / mean }
+    });
+    set(&q::U_STAR, star, 1.0);
+    let height = run.exchange.cell_height() * fluid.len() as f64;
+    let level = run.record.mean(5, first);
+    let pull = flow.rho_f * bed.g * bed.beta.sin();
+    let depth = level.map(|known| Known { mean: height - known.mean, ..known });
+    set(&q::WATER_DEPTH, depth, 1.0);
+    set(&q::SHIELDS_NOMINAL, depth, pull / stress);
+    if let (Some(level), false) = (level, fluid.is_empty()) {
+        let at = ((level.mean / run.exchange.cell_height()) as usize).min(fluid.len() - 1);
+        let [_, reynolds, viscous, ..] = fluid[at];
+        let both = Known { mean: reynolds.mean + viscous.mean, error: reynolds.error.hypot(viscous.error) };
+        set(&q::SHIELDS, Some(both), 1.0 / stress);
+    }
+    results.set(&q::FLOW_HEIGHT, height);
+    results.set(&q::SLOPE_SINE, bed.beta.sin());
+    if let Some((_, bulk)) = bed_level(&averaged) {
+        results.set(&q::PHI_BULK, bulk);
+    }
+    let start = run.record.rows.iter().find(|row| row[1] as usize >= first).map_or(0.0, |row| row[0]);
+    results.set(&q::TRANSIENT, start);
+    results.set(&q::AVERAGED_TIME, run.time() - start);
+    results.set(&q::TIME_STEP, run.engine.settings().dt);
+    let limit = stability::limit(&run.engine).step;
+    if limit.is_finite() {
+        results.set(&q::TIME_STEP_RATIO, run.engine.settings().dt / limit);
+    }
+    if let Some(hold) = &run.hold {
+        results.set(&q::HELD, hold.level());
+    }
+    let drag = run.exchange.drag_limit();
+    if drag.is_finite() {
+        results.set(&q::DRAG_LIMIT, drag);
+    }
+    if let Some(limit) = run.exchange.fluid_limit().filter(|limit| limit.is_finite()) {
+        results.set(&q::EXPLICIT_LIMIT, limit);
+    }
+    let mut table = None;
+    if let Some(mut made) = profile(bed, &averaged)? {
+        let column = |k: usize| fluid.iter().map(|cell| Some(cell[k].mean)).collect::<Vec<_>>();
+        let errors = |k: usize| fluid.iter().map(|cell| Some(cell[k].error)).collect::<Vec<_>>();
+        let mixture = |((cell, phi), u): ((&[Known; 5], &crate::dem::average::Mean), &crate::dem::average::Mean)| {
+            let phi = phi.map_or(0.0, |(phi, _)| phi);
+            Some((1.0 - phi) * cell[0].mean + phi * u.map_or(0.0, |(u, _)| u))
+        };
+        let mixtures = fluid.iter().zip(&averaged.phi).zip(&averaged.velocity).map(mixture).collect();
+        made.push(&q::U_FLUID, column(0))?;
+        made.push(&q::U_MIXTURE, mixtures)?;
+        made.push(&q::TAU_REYNOLDS, column(1))?;
+        made.push(&q::TAU_VISCOUS, column(2))?;
+        made.push(&q::MIXING_LENGTH, column(3))?;
+        made.push(&q::EDDY_VISCOSITY, column(4))?;
+        for (value, error, means) in budget::columns(bed, &averages) {
+            made.push(value, means.iter().map(|mean| mean.map(|(x, _)| x)).collect())?;
+            if let Some(error) = error {
+                made.push(error, means.iter().map(|mean| mean.map(|(_, e)| e)).collect())?;
+            }
+        }
+        made.push(&q::U_FLUID_STDERR, errors(0))?;
+        made.push(&q::TAU_REYNOLDS_STDERR, errors(1))?;
+        table = Some(made);
+    }
+    let mut series = None;
+    if !run.record.rows.is_empty() {
+        let rows = |column: usize, scale: f64| run.record.rows.iter().map(|row| Some(scale * row[column])).collect();
+        let mut made = Series::new((0..run.record.rows.len()).map(|i| i as f64).collect())?;
+        made.push(&q::TIME, rows(0, 1.0))?;
+        made.push(&q::KINETIC_ENERGY, rows(2, 1.0))?;
+        made.push(&q::RATE_IN_TIME, rows(3, 1.0))?;
+        made.push(&q::SHIELDS_IN_TIME, rows(4, 1.0 / stress))?;
+        made.push(&q::LEVEL_IN_TIME, rows(5, 1.0))?;
+        series = Some(made);
+    }
+    let densest = averaged.phi.iter().flatten().map(|(phi, _)| *phi).fold(0.0, f64::max);
+    let deepest = run.engine.contacts().map(|seen| seen.ratio).fold(0.0, f64::max);
+    let mut validity = Vec::new();
+    let mut warn = |closure: &str, variable: &str, value: f64, range: String| {
+        validity.push(Validity { closure: closure.into(), variable: variable.into(), value, range, z_m: None });
+    };
+    if !RIGID_RANGE.contains(deepest) {
+        warn("contact/linear-spring", RIGID_RANGE.variable, deepest, RIGID_RANGE.to_string());
+    }
+    if !HINDRANCE_RANGE.contains(densest) {
+        warn("drag/dallavalle-grain", HINDRANCE_RANGE.variable, densest, HINDRANCE_RANGE.to_string());
+    }
+    if let Some(level) = blind {
+        warn(
+            "contact/held",
+            "elevation below which contacts were held [m]",
+            level,
+            "stresses above it alone".to_owned(),
+        );
+    }
+    if !over {
+        let range = "the transport rate settles in the first half".to_owned();
+        warn("mean/transient", "time of the transient [s]", start, range);
+    }
+    let kinetic = run.engine.grains().kinetic_energy();
+    let ledger = run.engine.ledger();
+    let (defect, scale) = (ledger.defect(kinetic), ledger.scale(kinetic));
+    let balance = |name: &str, relative: f64, how: &str| Balance { name: name.into(), relative, how: how.into() };
+    let balances = vec![
+        balance(
+            "energy",
+            if scale > 0.0 { defect / scale } else { 0.0 },
+            "kinetic energy of the grains against the work of contacts, gravity and drag, relative to the largest of them",
+        ),
+        balance(
+            "exchange",
+            run.exchange.defect(),
+            "impulse that the fluid lost to mobile grains, less what they got, less what is carried on, relative to it",
+        ),
+        balance(
+            "fluid_momentum",
+            run.exchange.worst,
+            "of one step of the fluid, relative to its largest term; the worst of all",
+        ),
+    ];
+    Ok(Outcome { results, balances, validity, profile: table, series, ..nothing(status) })
+}

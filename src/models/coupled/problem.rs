@@ -1,0 +1,207 @@
+//! Problems of grains in a fluid.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::case::{CoupledDiscrete, CoupledTables, FluidScheme};
+use super::{accepts, advice, equations, run};
+use crate::case::Fault;
+use crate::case::tables::SlopeDefinition;
+use crate::closures::contact::{Contact, linear_spring};
+use crate::closures::drag::{DallavalleGrain, GrainDrag, dallavalle_grain};
+use crate::closures::fluctuation::Fluctuation;
+use crate::closures::mixing_length::MixingLength;
+use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::side_wall::{self, SideWall};
+use crate::dem::{Bottom, GrainBed};
+use crate::model::{Context, Description, Faults, Flow, Model, ModelInfo, Offer, Solve, Term};
+use crate::result::{CheckpointError, Failure, Outcome};
+
+/// Grains in a fluid that flows over them. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coupled {
+    /// the grains, their bed and channel
+    pub bed: GrainBed,
+    /// largest elevation of the fixed grains, and the step between elevations [m]
+    pub relief: (f64, f64),
+    /// density of the fluid [kg/m3]
+    pub rho_f: f64,
+    /// viscosity of the fluid [Pa s]
+    pub eta: f64,
+    /// the free surface
+    pub surface: Surface,
+    /// drag on single grains
+    pub drag: DallavalleGrain,
+    /// mixing length of the turbulence
+    pub mixing_length: MixingLength,
+    /// effective viscosity of the mixture
+    pub viscosity: MixtureViscosity,
+    /// friction of the fluid on the side walls
+    pub side_wall: SideWall,
+    /// eddies that a grain meets
+    pub fluctuation: Fluctuation,
+    /// time between two solutions of the fluid [s]
+    pub coupling_period: f64,
+    /// steps of the fluid in that time
+    pub fluid_steps: u32,
+    /// how it is stepped
+    pub fluid_scheme: FluidScheme,
+    /// mean way of a layer that is held, in diameters, the time in which it is gone [s], and the time from which on [s]
+    pub hold: Option<[f64; 3]>,
+    /// time between two samples [s]
+    pub sample_period: f64,
+    /// standard error of the transport rate, relative to it, with which the run ends
+    pub known_to: Option<f64>,
+}
+
+/// Where the free surface is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Surface {
+    /// over the mean centre of the fixed grains [m]
+    Height(f64),
+    /// over the level of the bed at rest [m]
+    Depth(f64),
+}
+
+impl Coupled {
+    /// Kinematic viscosity of the fluid [m2/s].
+    #[must_use]
+    pub fn nu(&self) -> f64 {
+        self.eta / self.rho_f
+    }
+
+    /// Stress scale (rho_p - rho_f) g d [Pa].
+    #[must_use]
+    pub fn stress_scale(&self) -> f64 {
+        (self.bed.rho_p - self.rho_f) * self.bed.g * self.bed.d
+    }
+}
+
+/// Most grains of a case.
+const MOST_GRAINS: f64 = 2e7;
+
+impl Model for Coupled {
+    const INFO: ModelInfo = ModelInfo { name: "coupled", stochastic: true };
+    type Tables = CoupledTables;
+
+    fn build(tables: &CoupledTables, faults: &mut Faults) -> Option<Self> {
+        let CoupledTables { fluid, grains, bed, flow, closures, discrete, .. } = tables;
+        let (definition, beta) = match flow.slope_definition {
+            SlopeDefinition::Tangent => ("tangent", flow.slope.atan()),
+            SlopeDefinition::Sine => ("sine", flow.slope.asin()),
+            SlopeDefinition::Angle => ("angle", flow.slope),
+        };
+        // The arc sine of more than 1 is not a number: not (beta < pi/2) catches it.
+        let upright = beta < FRAC_PI_2;
+        if !upright {
+            faults.push(("flow.slope", Fault::TooSteep { definition, value: flow.slope }));
+        }
+        let d = grains.diameter;
+        if grains.density <= fluid.density {
+            faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+        }
+        let surface = match (flow.height, flow.depth) {
+            (Some(height), None) => Some(Surface::Height(height)),
+            (None, Some(depth)) => Some(Surface::Depth(depth)),
+            (height, depth) => {
+                let given = [height.map(|_| "height"), depth.map(|_| "depth")];
+                let given = given.into_iter().flatten().map(str::to_owned).collect();
+                faults.push(("flow", Fault::Surfaces { given }));
+                None
+            }
+        };
+        let across = if flow.side_walls { (flow.width / d).floor() } else { flow.width / d };
+        let count = bed.layers * (flow.length / d) * across.max(1.0);
+        let mut room = |path, name: &'static str, value: f64, least: f64, most: f64| {
+            if !(least..=most).contains(&value) {
+                faults.push((path, Fault::GrainRoom { name, value, least, most }));
+            }
+        };
+        room("flow.length", "flow.length", flow.length, 4.0 * d, 1e3);
+        room("flow.width", "flow.width", flow.width, if flow.side_walls { d } else { 4.0 * d }, 1e3);
+        room("bed.layers", "the number of mobile grains", count, 1.0, MOST_GRAINS);
+        let relief = (bed.relief.unwrap_or(d / 3.0), bed.relief_step.or(bed.relief).unwrap_or(d / 3.0));
+        if bed.bottom == Bottom::Steps {
+            room("bed.relief", "bed.relief", relief.0, 0.0, d);
+        }
+        let CoupledDiscrete { coupling_period, sample_period, duration, .. } = *discrete;
+        room("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
+        if closures.side_wall != SideWall::None && !flow.side_walls {
+            let (law, allowed) = (closures.side_wall.info().law, vec![side_wall::none::INFO.law]);
+            let model = format!("{} without side walls", Self::INFO.name);
+            faults.push(("closures.side_wall.law", Fault::LawMismatch { family: "side_wall", law, model, allowed }));
+        }
+        let Contact::LinearSpring(contact) = closures.contact;
+        let GrainDrag::DallavalleGrain(drag) = closures.drag;
+        let mobile = if (1.0..=MOST_GRAINS).contains(&count) { count.round() as usize } else { 1 };
+        Some(Self {
+            bed: GrainBed {
+                d,
+                rho_p: grains.density,
+                mobile,
+                bottom: bed.bottom,
+                size: [flow.length, flow.width],
+                side_walls: flow.side_walls,
+                smooth_walls: false,
+                beta,
+                g: flow.gravity,
+                contact,
+                discrete: discrete.grains(),
+            },
+            relief,
+            rho_f: fluid.density,
+            eta: fluid.viscosity,
+            surface: surface?,
+            drag,
+            mixing_length: closures.mixing_length,
+            viscosity: closures.mixture_viscosity,
+            side_wall: closures.side_wall,
+            fluctuation: closures.fluctuation,
+            coupling_period,
+            fluid_steps: discrete.fluid_steps,
+            fluid_scheme: discrete.fluid_scheme,
+            hold: discrete.hold_creep.map(|creep| [creep, discrete.hold_period, discrete.hold_after]),
+            sample_period,
+            known_to: discrete.known_to,
+        })
+    }
+    fn offer(flow: &Flow, tolerance: f64) -> Option<Offer> {
+        match flow {
+            Flow::Turbulent(scene) => Some(advice::offer(scene, tolerance)),
+            Flow::Laminar(_) => None,
+        }
+    }
+}
+
+impl Solve for Coupled {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        run(self, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        let laws = vec![
+            &linear_spring::INFO,
+            &dallavalle_grain::INFO,
+            self.mixing_length.info(),
+            self.viscosity.info(),
+            self.side_wall.info(),
+            self.fluctuation.info(),
+        ];
+        Description { form: None, equations: equations(self), laws }
+    }
+
+    fn cells(&self) -> usize {
+        self.bed.mobile
+    }
+
+    fn flow(&self) -> Result<Option<Flow>, Failure> {
+        Ok(Some(Flow::Turbulent(advice::scene(self))))
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        advice::terms(self)
+    }
+
+    fn accepts(&self, checkpoint: &[u8]) -> Option<Result<(), CheckpointError>> {
+        Some(accepts(self, checkpoint))
+    }
+}

@@ -1,0 +1,240 @@
+//! What is remembered of a run: samples, blocks of the fluid, and where the transient ends.
+
+use super::exchange::Exchange;
+use crate::dem::checkpoint::{Reader, Saved, Writer};
+use crate::result::CheckpointError;
+
+/// Blocks of the whole duration.
+pub const BLOCKS: usize = 40;
+/// Least blocks of a mean.
+const LEAST: usize = 8;
+/// Columns of the fluid that are averaged.
+pub const FLUID: usize = 5;
+/// Columns of a sample.
+pub const WIDTH: usize = 7;
+
+/// One sample: time, block, kinetic energy, transport rate, largest Reynolds stress, bed level, mean velocity of the water.
+pub type Row = [f64; WIDTH];
+
+/// Sums of the fluid over the samples of one block.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Block {
+    /// number of samples
+    pub samples: f64,
+    /// per cell: velocity, Reynolds stress, viscous stress, mixing length, eddy viscosity
+    pub sums: Vec<[f64; FLUID]>,
+}
+
+/// All samples.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Record {
+    /// samples in order
+    pub rows: Vec<Row>,
+    /// blocks of the fluid
+    pub blocks: Vec<Block>,
+}
+
+/// A mean over blocks and its standard error.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Known {
+    /// mean
+    pub mean: f64,
+    /// standard error
+    pub error: f64,
+}
+
+impl Record {
+    /// Nothing yet, for `cells` cells.
+    #[must_use]
+    pub fn new(cells: usize) -> Self {
+        Self { rows: Vec::new(), blocks: vec![Block { samples: 0.0, sums: vec![[0.0; FLUID]; cells] }; BLOCKS] }
+    }
+
+    /// Adds a sample of the fluid to `block`.
+    pub fn sample(&mut self, row: Row, exchange: &Exchange) {
+        let block = &mut self.blocks[(row[1] as usize).min(BLOCKS - 1)];
+        block.samples += 1.0;
+        for (sums, values) in block.sums.iter_mut().zip(fluid(exchange)) {
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum += value;
+            }
+        }
+        self.rows.push(row);
+    }
+
+    /// First block after the transient: the cut of the transport rates, not beyond their half, that leaves the smallest
+    /// squared standard error of their mean (the marginal standard error rule, White 1997, doi:10.1177/003754979706900601),
+    /// rounded up to a block. And whether it lies inside, not at the half: else the transient may not be over.
+    #[must_use]
+    pub fn transient(&self) -> (usize, bool) {
+        let values: Vec<f64> = self.rows.iter().map(|row| row[3]).collect();
+        let cut = marginal(&values);
+        let block = self.rows.get(cut).map_or(0, |row| if cut == 0 { 0 } else { row[1] as usize + 1 });
+        let last = self.rows.last().map_or(0, |row| row[1] as usize);
+        (block.min(last), cut < values.len() / 2 || values.len() < 2)
+    }
+
+    /// Mean of `column` from block `first` on, and its standard error by blocks of time.
+    #[must_use]
+    pub fn mean(&self, column: usize, first: usize) -> Option<Known> {
+        let values: Vec<f64> = self.rows.iter().filter(|row| row[1] as usize >= first).map(|row| row[column]).collect();
+        known(&values)
+    }
+
+    /// Standard error of the transport rate over it, where there are samples enough to say so.
+    #[must_use]
+    pub fn precision(&self) -> Option<f64> {
+        let (first, over) = self.transient();
+        let blocks = self.rows.last()?[1] as usize + 1;
+        let enough = over && blocks >= first + LEAST && self.rows.len() >= 80;
+        let known = self.mean(3, first).filter(|_| enough)?;
+        (known.mean > 0.0).then(|| known.error / known.mean)
+    }
+
+    /// Fluid per cell from block `first` on: means, and standard errors of them.
+    #[must_use]
+    pub fn fluid(&self, first: usize) -> Vec<[Known; FLUID]> {
+        let blocks: Vec<&Block> = self.blocks[first..].iter().filter(|block| block.samples > 0.0).collect();
+        let cells = self.blocks[0].sums.len();
+        let one = |cell: usize, k: usize| {
+            let values: Vec<f64> = blocks.iter().map(|block| block.sums[cell][k] / block.samples).collect();
+            let n = values.len() as f64;
+            let mean = values.iter().sum::<f64>() / n;
+            let square: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
+            Known { mean, error: if n > 1.0 { (square / (n * (n - 1.0))).sqrt() } else { 0.0 } }
+        };
+        if blocks.is_empty() {
+            return Vec::new();
+        }
+        (0..cells).map(|cell| std::array::from_fn(|k| one(cell, k))).collect()
+    }
+
+    /// Writes all samples.
+    pub fn write(&self, to: &mut Writer) {
+        to.whole(self.rows.len() as u64);
+        self.rows.iter().flatten().for_each(|x| to.number(*x));
+        self.save(to);
+    }
+
+    /// Reads what [`Self::write`] wrote, for `cells` cells.
+    ///
+    /// # Errors
+    /// [`CheckpointError`] if it cannot be.
+    pub fn read(from: &mut Reader<'_>, cells: usize) -> Result<Self, CheckpointError> {
+        let mut record = Self::new(cells);
+        for _ in 0..from.whole()? {
+            let mut row = [0.0; WIDTH];
+            for x in &mut row {
+                *x = from.number()?;
+            }
+            record.rows.push(row);
+        }
+        record.fill(from)?;
+        Ok(record)
+    }
+}
+
+impl Saved for Record {
+    fn numbers(&mut self) -> Vec<&mut f64> {
+        let mut all = Vec::new();
+        for block in &mut self.blocks {
+            all.push(&mut block.samples);
+            all.extend(block.sums.iter_mut().flatten());
+        }
+        all
+    }
+}
+
+/// Velocity, Reynolds stress, viscous stress, mixing length and eddy viscosity at the centres of the cells.
+fn fluid(exchange: &Exchange) -> impl Iterator<Item = [f64; FLUID]> + '_ {
+    let column = &exchange.column;
+    let middle = |faces: &[f64], i: usize| 0.5 * (faces[i] + faces[i + 1]);
+    let (faces, u) = (column.grid().faces(), column.velocity());
+    (0..u.len()).map(move |i| {
+        let reynolds = middle(column.tau_reynolds(), i);
+        // R = rho nu_t du/dz over the cell, from its two faces.
+        let (below, above) = (i.saturating_sub(1), (i + 1).min(u.len() - 1));
+        let z = |i: usize| 0.5 * (faces[i] + faces[i + 1]);
+        let slope = (u[above] - u[below]) / (z(above) - z(below));
+        let eddy = if slope.abs() > 0.0 { reynolds / (column.setup().rho * slope) } else { 0.0 };
+        [u[i], reynolds, middle(column.tau_viscous(), i), middle(column.mixing_length(), i), eddy]
+    })
+}
+
+/// Index that the marginal standard error rule cuts at.
+fn marginal(values: &[f64]) -> usize {
+    let n = values.len();
+    let (mut sum, mut square, mut best) = (0.0, 0.0, (f64::INFINITY, 0));
+    for (i, x) in values.iter().enumerate().rev() {
+        sum += x;
+        square += x * x;
+        let count = (n - i) as f64;
+        let spread = (square - sum * sum / count).max(0.0) / (count * count);
+        if 2 * i <= n && spread <= best.0 {
+            best = (spread, i);
+        }
+    }
+    best.1
+}
+
+/// Mean of correlated values; the standard error is the largest of those by 8, 12 and 20 blocks.
+fn known(values: &[f64]) -> Option<Known> {
+    let n = values.len();
+    if n == 0 {
+        return None;
+    }
+    let mean = values.iter().sum::<f64>() / n as f64;
+    let by = |blocks: usize| {
+        let means = (0..blocks).map(|b| {
+            let part = &values[b * n / blocks..(b + 1) * n / blocks];
+            part.iter().sum::<f64>() / part.len() as f64
+        });
+        let square: f64 = means.map(|m| (m - mean) * (m - mean)).sum();
+        (square / (blocks * (blocks - 1)) as f64).sqrt()
+    };
+    let error = [8, 12, 20].into_iter().filter(|&blocks| blocks <= n).map(by).fold(0.0, f64::max);
+    Some(Known { mean, error })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::runtime::rng::Stream;
+
+    /// An autoregressive series of correlation time `t` samples around 1.
+    fn noise(n: u64, t: f64, seed: u64) -> Vec<f64> {
+        let a = (-1.0 / t).exp();
+        let mut x = 0.0;
+        (0..n)
+            .map(|i| {
+                x = a * x + (1.0 - a * a).sqrt() * Stream::new([seed, 0, i]).normal_pair()[0];
+                1.0 + 0.2 * x
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_transient_is_cut_where_it_ends() {
+        let values: Vec<f64> =
+            noise(1000, 3.0, 1).into_iter().enumerate().map(|(i, x)| x + 4.0 * (-(i as f64) / 40.0).exp()).collect();
+        let cut = marginal(&values);
+        assert!((80..220).contains(&cut), "{cut}");
+        assert!(marginal(&noise(1000, 3.0, 2)) < 300);
+    }
+
+    #[test]
+    fn the_standard_error_covers_the_truth_as_often_as_it_should() {
+        // Variance of the mean of n values with correlation a: about 0.04 (1 + a)/(1 - a)/n.
+        let inside = (0..200)
+            .filter(|&seed| {
+                let Known { mean, error } = known(&noise(1000, 5.0, seed + 10)).unwrap();
+                (mean - 1.0).abs() < 2.0 * error
+            })
+            .count();
+        assert!(inside > 180, "{inside} of 200 within two standard errors");
+        let error = known(&noise(1000, 5.0, 3)).unwrap().error;
+        let a = (-0.2_f64).exp();
+        let exact = (0.04 * (1.0 + a) / (1.0 - a) / 1000.0).sqrt();
+        assert!((0.6..2.0).contains(&(error / exact)), "{error} {exact}");
+    }
+}

@@ -1,0 +1,121 @@
+//! The numbers of a laminar bed, the same for the closed form and for the solvers.
+
+use crate::closures::drag::carman_kozeny;
+use crate::closures::{Info, Range};
+use crate::models::exact::bed::{Drive, LaminarBed};
+use crate::result::{Results, Validity, quantity as q};
+
+/// A continuum layer is at least one grain thick.
+const THICKNESS: Range = Range { variable: "mobile_depth_m/d", min: 1.0, max: f64::INFINITY };
+/// A bed at rest under the moving grains, too.
+const REST: Range = Range { variable: "yield_level_m/d", min: 1.0, max: f64::INFINITY };
+
+/// What a solution of the bed comes down to, in units of H, (rho_p - rho_f) g H and (rho_p - rho_f) g H^2/eta.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::models) struct BedNumbers {
+    /// drive
+    pub f: f64,
+    /// integral of the solid fraction times the grain velocity over the bed
+    pub flux: f64,
+    /// solid fraction just under the bed level
+    pub phi_interface: f64,
+    /// integral of the mixture velocity over the height
+    pub discharge: f64,
+    /// fluid stress at the bed level
+    pub tau: f64,
+    /// yield level
+    pub h_c: f64,
+    /// elevation and value of the largest velocity
+    pub largest: (f64, f64),
+    /// slip U - u_p in the mobile layer just under the bed level, seepage there if nothing moves
+    pub slip: f64,
+    /// shear rate of the grains at the bed level
+    pub shear: f64,
+}
+
+impl BedNumbers {
+    fn moves(&self, bed: &LaminarBed) -> bool {
+        self.h_c < bed.h_p / bed.h
+    }
+
+    /// Particle Reynolds number, as the catalogue defines it.
+    fn particle_reynolds(&self, bed: &LaminarBed) -> f64 {
+        let velocity = match bed.drag {
+            Some(_) => self.slip / (1.0 - bed.phi) * bed.velocity_scale(),
+            None => self.shear * bed.velocity_scale() * bed.d / bed.h,
+        };
+        bed.rho_f * velocity * bed.d / bed.eta
+    }
+
+    /// The reported results, SI.
+    pub fn results(&self, bed: &LaminarBed) -> Results {
+        let (h, velocity, stress) = (bed.h, bed.velocity_scale(), bed.stress_scale());
+        let rate = self.flux * velocity * h;
+        let tau = self.tau * stress;
+        let discharge = self.discharge * velocity * h;
+        let mut results = Results::default();
+        results.set(&q::TRANSPORT_RATE, rate);
+        results.set(&q::TRANSPORT_RATE_MASS, rate * bed.rho_p);
+        results.set(&q::TRANSPORT_RATE_BULK, rate / bed.phi);
+        let reduced = (bed.rho_p / bed.rho_f - 1.0) * bed.g;
+        results.set(&q::TRANSPORT_RATE_DIMENSIONLESS, rate / (bed.d * (reduced * bed.d).sqrt()));
+        results.set(&q::SHIELDS, tau / (reduced * bed.rho_f * bed.d));
+        results.set(&q::U_STAR, (tau / bed.rho_f).sqrt());
+        results.set(&q::MOBILE_DEPTH, bed.h_p - self.h_c * h);
+        results.set(&q::YIELD_LEVEL, self.h_c * h);
+        results.set(&q::BED_LEVEL, bed.h_p);
+        results.set(&q::FLOW_HEIGHT, h);
+        results.set(&q::PHI_INTERFACE, self.phi_interface);
+        results.set(&q::U_MAX, self.largest.1 * velocity);
+        results.set(&q::U_MAX_LEVEL, self.largest.0 * h);
+        results.set(&q::MEAN_VELOCITY, discharge / h);
+        results.set(&q::FLUID_DISCHARGE, discharge - rate);
+        if bed.drag.is_some() {
+            results.set(&q::SLIP_VELOCITY, self.slip * velocity);
+        }
+        let drive = match bed.drive {
+            Drive::PressureGradient(given) => given,
+            Drive::Shields(_) => self.f * stress / h,
+        };
+        results.set(&q::DRIVE, drive);
+        results.set(&q::DRIVE_DIMENSIONLESS, self.f);
+        results.set(&q::REYNOLDS, bed.rho_f * discharge / bed.eta);
+        results.set(&q::REYNOLDS_PARTICLE, self.particle_reynolds(bed));
+        results
+    }
+
+    /// Closures used outside their range.
+    pub fn validity(&self, bed: &LaminarBed) -> Vec<Validity> {
+        let viscosity = bed.viscosity.info();
+        let mut found: Vec<Validity> = Vec::new();
+        for range in viscosity.ranges {
+            found.extend(outside(closure_name(viscosity), range, bed.phi));
+        }
+        if bed.drag.is_some() {
+            let re_p = self.particle_reynolds(bed);
+            found.extend(outside(closure_name(&carman_kozeny::INFO), &carman_kozeny::REYNOLDS_RANGE, re_p));
+        }
+        if self.moves(bed) {
+            let grains = (bed.h_p - self.h_c * bed.h) / bed.d;
+            found.extend(outside("continuum/mobile layer".into(), &THICKNESS, grains));
+        }
+        found.extend(outside("continuum/static layer".into(), &REST, self.h_c * bed.h / bed.d));
+        found
+    }
+}
+
+/// Says so if `value` is outside `range`.
+pub(in crate::models) fn outside(closure: String, range: &Range, value: f64) -> Option<Validity> {
+    (!range.contains(value)).then(|| Validity {
+        closure,
+        variable: range.variable.into(),
+        value,
+        range: range.to_string(),
+        z_m: None,
+    })
+}
+
+/// `family/law`.
+pub(in crate::models) fn closure_name(info: &Info) -> String {
+    format!("{}/{}", info.family, info.law)
+}

@@ -1,0 +1,105 @@
+//! The case of the closed form.
+
+use super::{equations, run};
+use crate::case::tables::{Bed, BedClosures, Fluid, Grains, Grid, LaminarFlow, OuriemiModel};
+use crate::closures::friction;
+use crate::model::{
+    Context, Description, Effort, Faults, Flow, LaminarScene, Model, ModelInfo, Offer, OnMesh, Solve, Term,
+};
+use crate::models::exact::bed::{LaminarBed, laminar_bed};
+use crate::result::{Failure, Outcome};
+use crate::tables;
+
+tables! {
+    /// Newtonian fluid over a Coulomb bed between two planes, in closed form.
+    pub struct OuriemiTables {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: Bed,
+        /// Geometry and drive.
+        flow: LaminarFlow,
+        /// The model.
+        model: OuriemiModel,
+        /// Laws.
+        closures: BedClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
+    }
+}
+
+impl Model for OnMesh<LaminarBed> {
+    const INFO: ModelInfo = ModelInfo { name: "exact/ouriemi", stochastic: false };
+    type Tables = OuriemiTables;
+
+    fn build(tables: &OuriemiTables, faults: &mut Faults) -> Option<Self> {
+        let OuriemiTables { fluid, grains, bed, flow, closures, grid, .. } = tables;
+        let laws = [friction::coulomb::INFO.law];
+        let form = tables.model.form;
+        let problem = laminar_bed((fluid, grains, bed, flow, closures), form, Self::INFO.name, &laws, faults)?;
+        Some(Self { problem, cells: grid.cells })
+    }
+
+    fn offer(flow: &Flow, _: f64) -> Option<Offer> {
+        let Flow::Laminar(scene) = flow else { return None };
+        if scene.friction.1.is_some() || scene.dilates {
+            return None;
+        }
+        let slips = scene.k_ck.is_some();
+        let same = scene.kind == Self::INFO.name && slips == scene.two_velocities;
+        let form = if slips { "two-fluid form" } else { "mixed form" };
+        Some(Offer {
+            effort: Effort::None,
+            because: format!("constant friction and viscosity have a closed form; {form}"),
+            template: if slips { "exact_1d_ouriemi" } else { "exact_1d_ouriemi_mixed" },
+            overrides: (!same).then(|| keys(scene)),
+        })
+    }
+}
+
+/// The flow in the keys of the case.
+fn keys(scene: &LaminarScene) -> Vec<String> {
+    let mut set = vec![
+        format!("fluid.density={:?}", scene.rho_f),
+        format!("fluid.viscosity={:?}", scene.eta),
+        format!("grains.diameter={:?}", scene.d),
+        format!("grains.density={:?}", scene.rho_p),
+        format!("bed.level={:?}", scene.h_p),
+        format!("bed.phi={:?}", scene.phi),
+        format!("flow.height={:?}", scene.h),
+        format!("flow.gravity={:?}", scene.g),
+        format!("closures.friction.mu_s={:?}", scene.friction.0),
+    ];
+    match scene.drive {
+        Ok(fall) => set.push(format!("flow.pressure_gradient={fall:?}")),
+        Err(theta) => set.extend([format!("flow.shields={theta:?}"), "flow.pressure_gradient=".into()]),
+    }
+    set.extend(scene.k_ck.map(|k_ck| format!("closures.drag.k_ck={k_ck:?}")));
+    set
+}
+
+impl Solve for OnMesh<LaminarBed> {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        run(&self.problem, self.cells, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        let bed = &self.problem;
+        Description { form: Some(bed.form_name()), equations: equations(bed), laws: bed.laws() }
+    }
+
+    fn cells(&self) -> usize {
+        self.cells
+    }
+
+    fn flow(&self) -> Result<Option<Flow>, Failure> {
+        Ok(Some(self.problem.scene(Self::INFO.name)))
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        self.problem.slip().into_iter().collect()
+    }
+}

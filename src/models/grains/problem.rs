@@ -1,0 +1,188 @@
+//! Problems of single grains.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::case::{GrainsBedTables, ImpactTables, Target, Trial as Which, TrialTables};
+use super::{bed, impact, trials};
+use crate::case::Fault;
+use crate::case::tables::SlopeDefinition;
+use crate::closures::contact::{Contact, LinearSpring, linear_spring};
+use crate::dem::GrainBed;
+use crate::model::{Context, Description, Faults, Model, ModelInfo, Solve};
+use crate::result::{CheckpointError, Failure, Outcome};
+
+/// The impact of one sphere. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Impact {
+    /// diameter [m]
+    pub d: f64,
+    /// density [kg/m3]
+    pub rho_p: f64,
+    /// velocity before [m/s]
+    pub velocity: f64,
+    /// angle with the normal [rad]
+    pub angle: f64,
+    /// angular velocity before [1/s]
+    pub spin: f64,
+    /// what it hits
+    pub target: Target,
+    /// contact
+    pub contact: LinearSpring,
+    /// steps within the duration of the contact
+    pub steps_per_contact: f64,
+}
+
+/// A few grains, held against what is known exactly. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// what they are held against
+    pub trial: Which,
+    /// diameter [m]
+    pub d: f64,
+    /// density [kg/m3]
+    pub rho_p: f64,
+    /// velocity at the beginning [m/s]
+    pub velocity: f64,
+    /// gravity [m/s2]
+    pub g: f64,
+    /// contact
+    pub contact: LinearSpring,
+    /// steps within the duration of a contact
+    pub steps_per_contact: f64,
+}
+
+/// Most grains of a case: what a machine of today holds.
+const MOST_GRAINS: f64 = 2e7;
+
+impl Model for GrainBed {
+    const INFO: ModelInfo = ModelInfo { name: "grains", stochastic: true };
+    type Tables = GrainsBedTables;
+
+    fn build(tables: &GrainsBedTables, faults: &mut Faults) -> Option<Self> {
+        let GrainsBedTables { grains, bed, flow, closures, discrete, .. } = tables;
+        let (definition, beta) = match flow.slope_definition {
+            SlopeDefinition::Tangent => ("tangent", flow.slope.atan()),
+            SlopeDefinition::Sine => ("sine", flow.slope.asin()),
+            SlopeDefinition::Angle => ("angle", flow.slope),
+        };
+        // The arc sine of more than 1 is not a number: not (beta < pi/2) catches it.
+        let upright = beta < FRAC_PI_2;
+        if !upright {
+            faults.push(("flow.slope", Fault::TooSteep { definition, value: flow.slope }));
+        }
+        let d = grains.diameter;
+        let count = bed.layers * (flow.length / d) * (flow.width / d);
+        let wide = |name: &'static str, length: f64, least: f64, faults: &mut Faults| {
+            if length < least * d {
+                faults.push((name, Fault::GrainRoom { name, value: length, least: least * d, most: 1e3 }));
+            }
+        };
+        wide("flow.length", flow.length, 4.0, faults);
+        wide("flow.width", flow.width, if flow.side_walls { 1.0 } else { 4.0 }, faults);
+        let possible = (1.0..=MOST_GRAINS).contains(&count);
+        if !possible {
+            let name = "the number of mobile grains";
+            faults.push(("bed.layers", Fault::GrainRoom { name, value: count, least: 1.0, most: MOST_GRAINS }));
+        }
+        let Contact::LinearSpring(contact) = closures.contact;
+        Some(Self {
+            d,
+            rho_p: grains.density,
+            mobile: if possible { count.round() as usize } else { 1 },
+            bottom: bed.bottom,
+            size: [flow.length, flow.width],
+            side_walls: flow.side_walls,
+            smooth_walls: flow.smooth_walls,
+            beta,
+            g: flow.gravity,
+            contact,
+            discrete: *discrete,
+        })
+    }
+}
+
+impl Solve for GrainBed {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        bed::run(self, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        let (equations, laws) = (bed::equations(self), vec![&linear_spring::INFO]);
+        Description { form: None, equations, laws }
+    }
+
+    fn cells(&self) -> usize {
+        self.mobile
+    }
+
+    fn accepts(&self, checkpoint: &[u8]) -> Option<Result<(), CheckpointError>> {
+        Some(bed::accepts(self, checkpoint))
+    }
+}
+
+impl Model for Impact {
+    const INFO: ModelInfo = ModelInfo { name: "impact", stochastic: true };
+    type Tables = ImpactTables;
+
+    fn build(tables: &ImpactTables, _: &mut Faults) -> Option<Self> {
+        let Contact::LinearSpring(contact) = tables.closures.contact;
+        Some(Self {
+            d: tables.grains.diameter,
+            rho_p: tables.grains.density,
+            velocity: tables.flow.velocity,
+            angle: tables.flow.angle,
+            spin: tables.flow.spin,
+            target: tables.flow.target,
+            contact,
+            steps_per_contact: tables.discrete.steps_per_contact,
+        })
+    }
+}
+
+impl Solve for Impact {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        impact::run(self, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        let (equations, laws) = (impact::equations(self), vec![&linear_spring::INFO]);
+        Description { form: None, equations, laws }
+    }
+
+    fn cells(&self) -> usize {
+        1
+    }
+}
+
+impl Model for Trial {
+    const INFO: ModelInfo = ModelInfo { name: "trial", stochastic: true };
+    type Tables = TrialTables;
+
+    fn build(tables: &TrialTables, _: &mut Faults) -> Option<Self> {
+        let Contact::LinearSpring(contact) = tables.closures.contact;
+        Some(Self {
+            trial: tables.model.trial,
+            d: tables.grains.diameter,
+            rho_p: tables.grains.density,
+            velocity: tables.flow.velocity,
+            g: tables.flow.gravity,
+            contact,
+            steps_per_contact: tables.discrete.steps_per_contact,
+        })
+    }
+}
+
+impl Solve for Trial {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        trials::run(self, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        let (equations, laws) = (trials::equations(self), vec![&linear_spring::INFO]);
+        Description { form: None, equations, laws }
+    }
+
+    fn cells(&self) -> usize {
+        1
+    }
+}

@@ -1,0 +1,119 @@
+//! The laminar bed that is solved numerically: its case and its problem.
+
+use super::{equations, run};
+use crate::case::tables::{Bed, BedClosures, Fluid, Grains, LaminarFlow, LaminarModel, RegularisationTable, YieldGrid};
+use crate::closures::friction;
+use crate::closures::regularisation::Regularisation;
+use crate::model::{
+    Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, Term, TermTest,
+};
+use crate::models::exact::bed::{LaminarBed, laminar_bed};
+use crate::models::yield_size::size;
+use crate::result::{Failure, Outcome};
+use crate::tables;
+use crate::units::significant;
+
+tables! {
+    /// Laminar flow over a bed of grains between two planes: regularised, or with the exact yield.
+    pub struct LaminarTables {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: Bed,
+        /// Geometry and drive.
+        flow: LaminarFlow,
+        /// The model.
+        model: LaminarModel,
+        /// Laws.
+        closures: BedClosures,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the solver.
+        #[serde(default)]
+        grid: YieldGrid,
+    }
+}
+
+/// A laminar bed that is solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegularisedBed {
+    /// the bed
+    pub bed: LaminarBed,
+    /// how the yield stress is smoothed; lambda in units of (rho_p - rho_f) g H/eta
+    pub regularisation: Regularisation,
+    /// whether a node lies on the yield level
+    pub yield_node: bool,
+}
+
+impl Model for OnMesh<RegularisedBed> {
+    const INFO: ModelInfo = ModelInfo { name: "laminar", stochastic: false };
+    type Tables = LaminarTables;
+
+    fn build(tables: &LaminarTables, faults: &mut Faults) -> Option<Self> {
+        let LaminarTables { fluid, grains, bed, flow, closures, grid, .. } = tables;
+        let laws = [friction::coulomb::INFO.law, friction::mu_iv::INFO.law];
+        let bed = laminar_bed((fluid, grains, bed, flow, closures), tables.model.form, Self::INFO.name, &laws, faults);
+        let size = size(&tables.regularisation, faults);
+        let bed = bed?;
+        let lambda = size?.to_scaled(bed.velocity_scale() / bed.h);
+        let regularisation = Regularisation { law: tables.regularisation.law, lambda };
+        let problem = RegularisedBed { bed, regularisation, yield_node: grid.yield_node };
+        Some(Self { problem, cells: grid.cells })
+    }
+
+    fn offer(flow: &Flow, _: f64) -> Option<Offer> {
+        let Flow::Laminar(scene) = flow else { return None };
+        // Only a case of this model has what no closed form holds.
+        if scene.kind != Self::INFO.name || scene.friction.1.is_none() && !scene.dilates {
+            return None;
+        }
+        let form = if scene.k_ck.is_some() { "two-fluid form" } else { "mixed form" };
+        Some(Offer {
+            effort: Effort::Milliseconds,
+            because: format!("friction or solid fraction change with the shear rate: no closed form; {form}"),
+            template: "laminar_1d_muiv",
+            overrides: None,
+        })
+    }
+}
+
+impl Solve for OnMesh<RegularisedBed> {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        run(&self.problem, self.cells, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        let bed = &self.problem.bed;
+        Description { form: Some(bed.form_name()), equations: equations(&self.problem), laws: bed.laws() }
+    }
+
+    fn cells(&self) -> usize {
+        self.cells
+    }
+
+    fn flow(&self) -> Result<Option<Flow>, Failure> {
+        Ok(Some(self.problem.bed.scene(Self::INFO.name)))
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        let solve = |what, source, change: &[&str], left, free| {
+            let change = change.iter().map(|&c| c.to_owned()).collect();
+            Term { what, source, test: TermTest::Solve { change, left, free }, dropped: None }
+        };
+        let mut terms: Vec<Term> = self.problem.bed.slip().into_iter().collect();
+        let exact = ["regularisation.law=none", "regularisation.lambda=", "regularisation.lambda_scaled="];
+        let source = "Chauchat & Medale (2010), section 3.2";
+        terms.push(solve("smoothing of the yield", source, &exact, "the exact yield", true));
+        if self.problem.bed.rise.is_some() {
+            let mu_s = significant(self.problem.bed.friction.mu_s, 12);
+            let constant = format!("closures.friction={{ law = \"coulomb\", mu_s = {mu_s} }}");
+            let change = [constant.as_str(), "closures.dilatancy="];
+            let what = "rise of the friction with the shear rate";
+            terms.push(solve(what, "Aussillous et al. (2013)", &change, "a constant friction", false));
+        }
+        terms
+    }
+}

@@ -1,0 +1,308 @@
+//! The tables that only flows in two-dimensional sections have.
+
+use crate::case::tables::{Bed, BedClosures, BinghamFluid, Fluid, Grains, RegularisationTable};
+use crate::tables;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::case::tables::Form;
+
+/// A duct that a pressure gradient drives a yield-stress fluid through.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DuctFlow {
+    /// Outline of the cross-section.
+    pub shape: Shape,
+    /// Flow height H: height of a rectangle, diameter of a circle.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Width of a rectangle; left out, it is a square.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
+    pub width: Option<f64>,
+    /// Drive: fall of pressure along the flow, -dp/dx.
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
+    pub pressure_gradient: f64,
+}
+
+/// A duct with a bed of grains in its lower part.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BedFlow {
+    /// Outline of the cross-section.
+    pub shape: Shape,
+    /// Flow height H: height of a rectangle, diameter of a circle, bed included.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Width of a rectangle; left out, it is a square.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
+    pub width: Option<f64>,
+    /// Drive: fall of pressure along the flow, -dp/dx.
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
+    pub pressure_gradient: f64,
+    /// Acceleration of gravity.
+    #[serde(default = "gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+}
+
+/// Outline of a cross-section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shape {
+    /// A rectangle, or a square.
+    Rectangle,
+    /// A circle.
+    Circle,
+    /// Two planes without side walls: the same elements give the plane flow.
+    Planes,
+}
+
+/// The model: a yield-stress fluid in the cross-section of a duct.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct DuctModel {
+    /// What kind of model: a flow in a two-dimensional section.
+    pub kind: SectionKind,
+    /// A yield-stress fluid along a duct.
+    pub solution: DuctSolution,
+    /// How the minimum is found.
+    #[serde(default)]
+    pub method: Method,
+}
+
+/// The model: a fluid over a bed of grains in the cross-section of a duct.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BedModel {
+    /// What kind of model: a flow in a two-dimensional section.
+    pub kind: SectionKind,
+    /// A fluid over a bed of grains along a duct.
+    pub solution: BedSolution,
+    /// One velocity for fluid and grains, or two.
+    pub form: Form,
+    /// How the minimum is found.
+    #[serde(default)]
+    pub method: Method,
+}
+
+/// A square cavity under a lid that slides.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CavityFlow {
+    /// Side H of the cavity.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Drive: velocity of the lid.
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
+    pub lid_velocity: f64,
+}
+
+/// The model: a yield-stress fluid in a square cavity under a lid that slides.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CavityModel {
+    /// What kind of model: a flow in a two-dimensional section.
+    pub kind: SectionKind,
+    /// A yield-stress fluid in a square cavity, without inertia.
+    pub solution: CavitySolution,
+    /// How the minimum is found.
+    #[serde(default)]
+    pub method: Method,
+}
+
+/// How the convex minimum is found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Newton's method with the stress as an extra unknown: regularised, or with the exact yield by a smoothing that is taken down until nothing changes.
+    #[default]
+    Newton,
+    /// Accelerated ascent of the dual with the exact yield: one factorisation, few digits.
+    FirstOrder,
+}
+
+macro_rules! only {
+    ($(#[$doc:meta])* $name:ident, $variant:ident) => {
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+        #[serde(rename_all = "kebab-case")]
+        pub enum $name {
+            $(#[$doc])*
+            $variant,
+        }
+    };
+}
+
+only!(
+    /// A flow in a two-dimensional section.
+    SectionKind,
+    Section
+);
+only!(
+    /// A yield-stress fluid along a duct.
+    DuctSolution,
+    Duct
+);
+only!(
+    /// A fluid over a bed of grains along a duct.
+    BedSolution,
+    Bed
+);
+
+only!(
+    /// A yield-stress fluid in a square cavity, without inertia.
+    CavitySolution,
+    Cavity
+);
+
+/// Cells of a cavity.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CavityGrid {
+    /// Cells from the bottom to the lid and across; an even number.
+    #[serde(default = "cavity_cells")]
+    #[schemars(extend("minimum" = 8, "maximum" = 512, "multipleOf" = 2))]
+    pub cells: usize,
+    /// Size of the cells at the lid and at the side walls over the mean one; 1: equal cells.
+    #[serde(default = "one")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.001, "maximum" = 1.0))]
+    pub finest: f64,
+}
+
+impl Default for CavityGrid {
+    fn default() -> Self {
+        Self { cells: cavity_cells(), finest: one() }
+    }
+}
+
+fn cavity_cells() -> usize {
+    64
+}
+
+/// Elements of a section.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SectionGrid {
+    /// Elements from the bottom to the top; half as many across half of a section as wide as high.
+    #[serde(default = "cells")]
+    #[schemars(extend("minimum" = 8, "maximum" = 512))]
+    pub cells: usize,
+    /// Whether a row of elements ends on the yield surface of a bed.
+    #[serde(default = "yes")]
+    pub yield_row: bool,
+    /// Size of the elements at the walls and at the bed level over the mean one; 1: equal elements.
+    #[serde(default = "one")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.001, "maximum" = 1.0))]
+    pub finest: f64,
+    /// Elements along one height of the flow: the whole three-dimensional duct beside its section. Left out, the section alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 2, "maximum" = 64))]
+    pub along: Option<usize>,
+}
+
+impl Default for SectionGrid {
+    fn default() -> Self {
+        Self { cells: cells(), yield_row: true, finest: one(), along: None }
+    }
+}
+
+/// When the first-order method ends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SectionSolver {
+    /// Duality gap over the work of the drive at which the first-order method ends.
+    #[serde(default = "tolerance")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 1e-14, "maximum" = 0.1))]
+    pub tolerance: f64,
+    /// Most iterations of the first-order method.
+    #[serde(default = "iterations")]
+    #[schemars(extend("minimum" = 1, "maximum" = 1_000_000))]
+    pub iterations: usize,
+}
+
+impl Default for SectionSolver {
+    fn default() -> Self {
+        Self { tolerance: tolerance(), iterations: iterations() }
+    }
+}
+
+fn gravity() -> f64 {
+    9.81
+}
+fn cells() -> usize {
+    32
+}
+fn yes() -> bool {
+    true
+}
+fn one() -> f64 {
+    1.0
+}
+fn tolerance() -> f64 {
+    1e-8
+}
+fn iterations() -> usize {
+    20_000
+}
+
+tables! {
+    /// Yield-stress fluid along a duct, in its cross-section.
+    pub struct DuctTables {
+        /// The material.
+        fluid: BinghamFluid,
+        /// Geometry and drive.
+        flow: DuctFlow,
+        /// The model.
+        model: DuctModel,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Elements of the section.
+        #[serde(default)]
+        grid: SectionGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
+    }
+}
+
+tables! {
+    /// Laminar flow along a duct over a bed of grains, in its cross-section.
+    pub struct DuctBedTables {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: Bed,
+        /// Geometry and drive.
+        flow: BedFlow,
+        /// The model.
+        model: BedModel,
+        /// Laws.
+        closures: BedClosures,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Elements of the section.
+        #[serde(default)]
+        grid: SectionGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
+    }
+}
+
+tables! {
+    /// Slow flow of a yield-stress fluid in a square cavity under a sliding lid.
+    pub struct CavityTables {
+        /// The material.
+        fluid: BinghamFluid,
+        /// Geometry and drive.
+        flow: CavityFlow,
+        /// The model.
+        model: CavityModel,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the cavity.
+        #[serde(default)]
+        grid: CavityGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
+    }
+}

@@ -1,0 +1,103 @@
+//! From a duct to its solution: the method that the case asks for, on a mesh that follows the yield surface of a bed.
+
+use std::ops::ControlFlow;
+
+use super::duct::{Divided, Duct, Filling};
+use super::fit::along;
+use super::mesh::Mesh;
+use super::newton::{Solved, Stalled};
+use super::{dual, newton};
+use crate::closures::regularisation::Regularisation;
+use crate::models::section::{Method, Outline, SectionMethod};
+
+/// Rows of the coarsest mesh on which the yield surface is looked for.
+const COARSEST: usize = 24;
+/// Turns of solving and dividing on the coarsest mesh; on the others one is enough.
+const TURNS: usize = 3;
+
+/// A solved duct.
+#[derive(Clone, Debug)]
+pub struct Solution {
+    /// its elements
+    pub divided: Divided,
+    /// unknowns, strains, stresses
+    pub solved: Solved<2>,
+    /// yield surface of the bed: height in each node column
+    pub line: Option<Vec<f64>>,
+    /// iterations on all meshes
+    pub iterations: usize,
+}
+
+impl Duct {
+    /// Elements across half of the section, for `rows` from the bottom to the top.
+    #[must_use]
+    pub fn columns(&self, rows: usize) -> usize {
+        match self.shape {
+            Outline::Rectangle { width } => ((0.5 * width * rows as f64).round() as usize).clamp(3, 2 * rows),
+            Outline::Circle => rows / 2,
+            Outline::Planes => 1,
+        }
+    }
+
+    /// Solves on `rows` elements from the bottom to the top; `see` receives the number of unknowns and the relative change of
+    /// each iteration.
+    ///
+    /// # Errors
+    /// [`Stalled`].
+    pub fn solve(
+        &self,
+        rows: usize,
+        law: &Regularisation,
+        how: &SectionMethod,
+        see: &mut dyn FnMut(usize, f64) -> ControlFlow<()>,
+    ) -> Result<Solution, Stalled> {
+        let mut iterations = 0;
+        let mut on = |rows: usize, line: Option<&[f64]>, last: bool| -> Result<Solution, Stalled> {
+            let divided = self.divide(self.columns(rows), rows, how.finest, line);
+            let n = divided.programme.size();
+            let mut see = |change: f64| see(n, change);
+            let solved = match how.method {
+                // The mesh follows the exact yield surface, whatever the law.
+                _ if !last => newton::solve(&divided.programme, &Regularisation::EXACT, &mut see)?,
+                Method::Newton => newton::solve(&divided.programme, law, &mut see)?,
+                Method::FirstOrder => dual::solve(&divided.programme, how.tolerance, how.iterations, &mut see)?,
+            };
+            iterations += solved.history.len();
+            let line = if law.is_exact() || !last {
+                divided.yield_line(&divided.velocity(&solved.x), &divided.grains(&solved.x))
+            } else {
+                line.map(<[f64]>::to_vec)
+            };
+            Ok(Solution { divided, solved, line, iterations })
+        };
+        let followed = how.yield_row && matches!(self.filling, Filling::Bed { .. });
+        if !followed {
+            return on(rows, None, true);
+        }
+        // The yield surface from coarse to fine: on the last mesh it moves by less than an element.
+        let mut meshes = vec![rows];
+        while let Some(coarser) = meshes.last().map(|n| n / 2).filter(|n| *n >= COARSEST) {
+            meshes.push(coarser);
+        }
+        let mut line: Option<(Vec<f64>, Vec<f64>)> = None;
+        for (k, n) in meshes.iter().enumerate().rev() {
+            let turns = if k + 1 == meshes.len() { TURNS + usize::from(k == 0) } else { 1 };
+            for turn in 0..turns {
+                let eta = Mesh::columns_at(self.columns(*n), how.finest);
+                let here = line.as_ref().map(|(from, line)| along(from, line, &eta));
+                let last = k == 0 && turn + 1 == turns;
+                let solution = on(*n, here.as_deref(), last)?;
+                if last {
+                    return Ok(solution);
+                }
+                let Some(found) = solution.line else { break };
+                line = Some((solution.divided.mesh.eta.clone(), found));
+            }
+            if line.is_none() {
+                break;
+            }
+        }
+        // No yield surface that a row could follow: the bed is at rest, or moves down to the wall.
+        on(rows, None, true)
+    }
+}

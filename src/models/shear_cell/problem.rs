@@ -1,0 +1,93 @@
+//! Problems of grains between two walls that move.
+
+use super::case::ShearCellTables;
+use super::{equations, run};
+use crate::case::Fault;
+use crate::closures::Info;
+use crate::closures::kinetic::{FRICTIONAL_COLLISIONAL, Granular, Kinetic, garzo_dufty};
+use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::result::{Failure, Outcome};
+
+/// Grains between two walls, without fluid or gravity. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShearCell {
+    /// density of the grains [kg/m3]
+    pub rho_p: f64,
+    /// diameter of the grains [m]
+    pub d: f64,
+    /// distance of the walls [m]
+    pub h: f64,
+    /// solid fraction, mean over the gap
+    pub phi: f64,
+    /// solid fraction at which the grains jam
+    pub phi_max: f64,
+    /// velocity of the grains at the lower and the upper wall [m/s]
+    pub velocity: [f64; 2],
+    /// granular temperature there [m2/s2]
+    pub temperature: [f64; 2],
+    /// law of the grains
+    pub granular: Granular,
+    /// its numbers
+    pub kinetic: Kinetic,
+}
+
+impl Model for OnMesh<ShearCell> {
+    const INFO: ModelInfo = ModelInfo { name: "shear-cell", stochastic: false };
+    type Tables = ShearCellTables;
+
+    fn build(tables: &ShearCellTables, faults: &mut Faults) -> Option<Self> {
+        let ShearCellTables { grains, flow, closures, .. } = tables;
+        if flow.phi >= flow.phi_max {
+            let allowed = format!("less than flow.phi_max = {}", flow.phi_max);
+            faults.push(("flow.phi", Fault::OutOfRange { name: "phi".into(), value: flow.phi, allowed }));
+        }
+        if flow.height < grains.diameter {
+            let fault = Fault::ThinnerThanAGrain { level: flow.height, diameter: grains.diameter };
+            faults.push(("flow.height", fault));
+        }
+        let kinetic = match closures.granular {
+            Granular::GarzoDufty(law) => law.kinetic(grains.restitution, grains.friction),
+            Granular::FrictionalCollisional(law) => law.kinetic(grains.restitution, grains.friction),
+            Granular::MuI(_) => {
+                let (law, allowed) =
+                    (closures.granular.info().law, vec![garzo_dufty::INFO.law, FRICTIONAL_COLLISIONAL.law]);
+                let fault = Fault::LawMismatch { family: "granular", law, model: Self::INFO.name.into(), allowed };
+                faults.push(("closures.granular.law", fault));
+                return None;
+            }
+        };
+        let problem = ShearCell {
+            rho_p: grains.density,
+            d: grains.diameter,
+            h: flow.height,
+            phi: flow.phi,
+            phi_max: flow.phi_max,
+            velocity: [flow.velocity_lower, flow.velocity_upper],
+            temperature: [flow.temperature_lower, flow.temperature_upper],
+            granular: closures.granular,
+            // Nothing but the collisions ends the flight of a grain here.
+            kinetic: Kinetic { saltation: None, ..kinetic },
+        };
+        Some(Self { problem, cells: tables.grid.cells })
+    }
+}
+
+impl Solve for OnMesh<ShearCell> {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        run(&self.problem, self.cells, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        Description { form: None, equations: equations(&self.problem), laws: laws(&self.problem) }
+    }
+
+    fn cells(&self) -> usize {
+        self.cells
+    }
+}
+
+fn laws(cell: &ShearCell) -> Vec<&'static Info> {
+    let mut laws = vec![cell.granular.info()];
+    laws.extend(cell.granular.parts());
+    laws
+}

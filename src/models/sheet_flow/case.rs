@@ -1,0 +1,254 @@
+//! The tables that only a sheet flow has.
+
+use crate::case::tables::{Fluid, Grains};
+use crate::tables;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::case::tables::SlopeDefinition;
+use crate::closures::dilatancy::Dilatancy;
+use crate::closures::drag::Drag;
+use crate::closures::friction::Friction;
+use crate::closures::lid::Lid;
+use crate::closures::mixing_length::MixingLength;
+use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::rearrangement::Rearrangement;
+use crate::closures::suspension::Suspension;
+
+/// A bed that loosens and goes into suspension.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SheetBed {
+    /// Bed level h_p over the bottom of the bed, below the flow height; in the flow or before it, as reading says.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub level: f64,
+    /// What the bed level is.
+    #[serde(default)]
+    pub reading: BedReading,
+}
+
+/// What the bed level is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BedReading {
+    /// The interface in the flow; the amount of grains follows.
+    #[default]
+    Final,
+    /// The top of the bed at rest, packed at phi_max; the amount of grains is conserved between bed and suspension, and the
+    /// interface in the flow follows.
+    Initial,
+}
+
+/// A turbulent flow over a bed. Exactly one drive: shields, u_star or slope; under a lid whose stress is solved for, the
+/// slope with one of the other two.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SheetFlowTable {
+    /// Flow height H over the bottom of the bed, bed included.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Drive: wanted Shields number, the fluid stress at the bed level over (rho_p - rho_f) g d.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub shields: Option<f64>,
+    /// Drive: wanted friction velocity at the bed level.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub u_star: Option<f64>,
+    /// Drive: slope, as slope_definition says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub slope: Option<f64>,
+    /// What the number given as slope is.
+    #[serde(default = "sine")]
+    pub slope_definition: SlopeDefinition,
+    /// Acceleration of gravity.
+    #[serde(default = "gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+}
+
+fn sine() -> SlopeDefinition {
+    SlopeDefinition::Sine
+}
+
+fn gravity() -> f64 {
+    9.81
+}
+
+/// The model: two-layer sheet flow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SheetModel {
+    /// What kind of model: a turbulent flow over a bed of grains that shear as dense granular flow.
+    pub kind: SheetKind,
+    /// How the discrete equations are solved.
+    #[serde(default)]
+    pub method: SheetMethod,
+}
+
+/// Two-layer sheet flow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SheetKind {
+    /// A turbulent flow over a bed of grains that shear as dense granular flow.
+    SheetFlow,
+}
+
+/// How the discrete equations are solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SheetMethod {
+    /// Newton's method on the whole column.
+    #[default]
+    Newton,
+    /// The pseudo-time iteration of Revil-Baudard & Chauchat (2013), Appendix B; it needs a regularisation.
+    Iteration,
+}
+
+/// Laws of the sheet flow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SheetClosures {
+    /// Friction of the grains.
+    pub friction: Friction,
+    /// Dilatancy of the grains.
+    pub dilatancy: Dilatancy,
+    /// Rearrangement time of the grains.
+    #[serde(default)]
+    pub rearrangement: Rearrangement,
+    /// Effective viscosity of the mixture.
+    pub mixture_viscosity: MixtureViscosity,
+    /// Drag between the phases.
+    pub drag: Drag,
+    /// Mixing length of the turbulence.
+    pub mixing_length: MixingLength,
+    /// Grains in suspension.
+    #[serde(default)]
+    pub suspension: Suspension,
+    /// Top of the flow.
+    #[serde(default)]
+    pub lid: Lid,
+}
+
+/// Small numbers of the sheet flow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SheetRegularisation {
+    /// Law of the smoothing of the yield.
+    #[serde(default)]
+    pub law: SheetSmoothing,
+    /// Size: shear rate below which the grains creep instead of standing still.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub lambda: Option<f64>,
+    /// Solid volume per area under the interface, in grain diameters, in which the buoyancy of the viscous stress is left out
+    /// of the momentum of the grains.
+    #[serde(default = "interface_cut")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 100.0))]
+    pub interface_cut: f64,
+    /// Whether more is left out where the equations change type deeper; if not, the case fails there.
+    #[serde(default = "deepen")]
+    pub deepen_cut: bool,
+}
+
+fn deepen() -> bool {
+    true
+}
+
+fn interface_cut() -> f64 {
+    0.3
+}
+
+impl Default for SheetRegularisation {
+    fn default() -> Self {
+        Self { law: SheetSmoothing::None, lambda: None, interface_cut: interface_cut(), deepen_cut: deepen() }
+    }
+}
+
+/// How the yield is smoothed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum SheetSmoothing {
+    /// The exact yield: rigid below it.
+    #[default]
+    None,
+    /// gamma/(|gamma| + lambda): eq. (22) of Revil-Baudard & Chauchat (2013).
+    Simple,
+}
+
+/// Cells of the column.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SheetGrid {
+    /// Number of cells, three quarters of them in the bed.
+    #[serde(default = "cells")]
+    #[schemars(extend("minimum" = 40, "maximum" = 100_000))]
+    pub cells: usize,
+}
+
+fn cells() -> usize {
+    300
+}
+
+impl Default for SheetGrid {
+    fn default() -> Self {
+        Self { cells: cells() }
+    }
+}
+
+/// Settings of the pseudo-time iteration; Newton's method takes none of them.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct SheetSolver {
+    /// Step of pseudo-time, the same for both velocities.
+    #[serde(default = "time_step")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
+    pub time_step: f64,
+    /// Relative residual at which the iteration has converged.
+    #[serde(default = "tolerance")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 1e-12, "maximum" = 1e-3))]
+    pub tolerance: f64,
+    /// Turns after which the iteration gives up.
+    #[serde(default = "turns")]
+    #[schemars(extend("minimum" = 1, "maximum" = 100_000_000))]
+    pub turns: usize,
+}
+
+fn time_step() -> f64 {
+    0.05
+}
+
+fn tolerance() -> f64 {
+    1e-9
+}
+
+fn turns() -> usize {
+    200_000
+}
+
+impl Default for SheetSolver {
+    fn default() -> Self {
+        Self { time_step: time_step(), tolerance: tolerance(), turns: turns() }
+    }
+}
+
+tables! {
+    /// Turbulent flow over a bed of grains that shear as dense granular flow, with a suspension above.
+    pub struct SheetFlowTables {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: Grains,
+        /// The bed.
+        bed: SheetBed,
+        /// Geometry and drive.
+        flow: SheetFlowTable,
+        /// The model.
+        model: SheetModel,
+        /// Laws.
+        closures: SheetClosures,
+        /// Small numbers.
+        #[serde(default)]
+        regularisation: SheetRegularisation,
+        /// Cells of the column.
+        #[serde(default)]
+        grid: SheetGrid,
+        /// The iteration.
+        #[serde(default)]
+        solver: SheetSolver,
+    }
+}

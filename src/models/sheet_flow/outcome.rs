@@ -1,0 +1,287 @@
+//! A solved sheet flow in SI: numbers, balances, closures outside their range, and why there is no solution.
+
+use serde_json::json;
+
+use super::column::{Floor, Setting};
+use super::flow::Flow;
+use super::iteration::Pace;
+use super::layers::Layers;
+use super::newton::{Reason, Stalled};
+use super::profile::profile;
+use super::solve::{self, Solved};
+use crate::closures::dilatancy::phi_i;
+use crate::closures::friction::mu_i;
+use crate::closures::lid::{Lid, colebrook_white};
+use crate::closures::suspension::{Suspension, rouse};
+use crate::closures::{Info, Range};
+use crate::models::exact::bed_results::{closure_name, outside};
+use crate::models::exact::{balance, outcome};
+use crate::models::sheet_flow::{BedReading, SheetFlow, SheetMethod};
+use crate::result::{Balance, Failure, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q};
+
+/// A continuum layer is at least a few grains thick.
+const THICKNESS: Range = Range { variable: "sheet_thickness_m/d", min: 3.0, max: f64::INFINITY };
+/// Sheet flow proper.
+const SHEET: Range = Range { variable: "shields", min: 0.5, max: f64::INFINITY };
+
+/// Scaled numbers from which on products of a few of them overflow.
+const LARGEST: f64 = 1e60;
+
+/// Solves the flow on `cells` cells.
+///
+/// # Errors
+/// Why there is no steady sheet flow over a bed at rest, or why the method did not find it.
+pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
+    let (flow, setting) = (Flow::scaled(sheet), Setting::scaled(sheet));
+    let scaled = [setting.height, setting.level, flow.delta, flow.nu, flow.lambda, flow.cut];
+    let given = [setting.tau_b, setting.sine].into_iter().flatten();
+    // Not for a number that is none, either.
+    let representable = scaled.into_iter().chain(given).all(|x| x.abs() < LARGEST);
+    if !representable {
+        return Err(SolveError::NotRepresentable { name: "the flow in units of its grains".into() }.into());
+    }
+    let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
+    let solved = match sheet.method {
+        _ if stopped => Err(Stalled::new(f64::INFINITY, 0)),
+        SheetMethod::Newton => solve::solve(flow, setting, cells),
+        SheetMethod::Iteration => {
+            let (dt, tolerance, most) = sheet.pace;
+            let pace = Pace { dt: dt * sheet.velocity_scale() / sheet.d, tolerance, most };
+            solve::iterate(flow, setting, cells, &pace, |turn, _| {
+                let fraction = turn as f64 / most as f64;
+                stopped = watch.see(&Snapshot { stage: "iteration", fraction, quantity: None }).is_break();
+                stopped
+            })
+        }
+    };
+    if stopped {
+        return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
+    }
+    let solved = solved.map_err(|stalled| unsolved(sheet, &flow, &setting, stalled))?;
+    if !sheet.deepen_cut && solved.change_of_type * sheet.d > sheet.cut {
+        return Err(SolveError::ChangeOfType { depth_m: solved.change_of_type * sheet.d, cut_m: sheet.cut }.into());
+    }
+    let layers = Layers::new(&solved.column, &solved.state);
+    refuse(sheet, &solved, &layers)?;
+    let results = results(sheet, &solved, &layers);
+    let validity = validity(sheet, &results, &layers);
+    let profile = profile(sheet, &solved, &layers)?;
+    let balances = balances(&solved, &layers);
+    let mut outcome = outcome(Some(profile), solved.history.clone(), results, balances, validity)?;
+    outcome.regularisation.insert("lambda_1_s".into(), json!(sheet.lambda));
+    outcome.regularisation.insert("interface_cut_d".into(), json!(solved.column.flow.cut));
+    Ok(outcome)
+}
+
+/// Why the method found nothing: no bed at rest can exist, or it failed.
+fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled) -> SolveError {
+    match stalled.reason {
+        Some(Reason::RunsAway(level)) => {
+            return SolveError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d };
+        }
+        Some(Reason::AllMove) => {
+            let tau_b = setting.tau_b.unwrap_or_else(|| {
+                let room = setting.height - setting.level;
+                flow.fluid_weight(setting.sine.unwrap_or_default()) * room
+            });
+            return SolveError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
+        }
+        Some(Reason::Locked(carried)) => return SolveError::Locked { carried },
+        None => {}
+    }
+    // The stress of the interface alone needs this much weight of grains to be held.
+    let grains = flow.dilatancy.phi_max * setting.level;
+    if let Some(tau_b) = setting.tau_b.filter(|tau_b| *tau_b >= flow.friction.mu_s * grains) {
+        return SolveError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
+    }
+    // Grains at rest in a deep bed carry the slope of the whole mixture, at most mu_s P_p.
+    let sine = setting.sine.or_else(|| {
+        let free = setting.lid == Lid::FreeSurface;
+        setting.tau_b.filter(|_| free).map(|tau_b| tau_b * flow.delta / (setting.height - setting.level))
+    });
+    if let Some(sine) = sine {
+        let cosine = (1.0 - sine * sine).max(0.0).sqrt();
+        let drive = sine * (1.0 / (flow.delta * flow.dilatancy.phi_max) + 1.0);
+        if drive >= flow.friction.mu_s * cosine {
+            return SolveError::NoStaticBed { drive, limit: flow.friction.mu_s * cosine };
+        }
+    }
+    SolveError::not_converged(stalled.residual, stalled.iterations)
+}
+
+/// Refuses a solution of the equations that is none of the flow.
+fn refuse(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Result<(), SolveError> {
+    let (flow, state, d) = (&solved.column.flow, &solved.state, sheet.d);
+    let bottom = solved.column.mesh.cells() - 1;
+    if state.rest < 0.0 || (solved.column.floor == Floor::Bottom && state.r(bottom) >= flow.friction.mu_s) {
+        return Err(SolveError::NothingAtRest { bed_m: layers.z[0] * d, shields: state.tau_b });
+    }
+    if layers.lid < -1e-9 * state.tau_b {
+        return Err(SolveError::LidPushes { stress_pa: layers.lid * sheet.stress_scale() });
+    }
+    let whole = flow.dilatancy.phi_max * sheet.level;
+    if sheet.reading == BedReading::Initial && layers.totals.volume * d >= whole {
+        return Err(SolveError::BedSuspended { suspended_m: layers.totals.volume * d, bed_m: whole });
+    }
+    Ok(())
+}
+
+fn results(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Results {
+    let (flow, state) = (&solved.column.flow, &solved.state);
+    let (d, velocity, stress) = (sheet.d, sheet.velocity_scale(), sheet.stress_scale());
+    let rate = layers.psi() * velocity * d;
+    let mut results = Results::default();
+    results.set(&q::TRANSPORT_RATE, rate);
+    results.set(&q::TRANSPORT_RATE_DIMENSIONLESS, layers.psi());
+    results.set(&q::TRANSPORT_RATE_MASS, rate * sheet.rho_p);
+    results.set(&q::TRANSPORT_RATE_BULK, rate / flow.dilatancy.phi_max);
+    results.set(&q::TRANSPORT_RATE_BED, layers.flux * velocity * d);
+    results.set(&q::TRANSPORT_RATE_SUSPENSION, layers.totals.flux * velocity * d);
+    results.set(&q::TRANSPORT_SHARE_BED, layers.flux / layers.psi());
+    results.set(&q::SHIELDS, state.tau_b);
+    let u_star = velocity * state.tau_b.sqrt();
+    results.set(&q::U_STAR, u_star);
+    match sheet.suspension {
+        Suspension::Rouse(law) => results.set(&q::SUSPENSION_NUMBER, law.settling_velocity / u_star),
+        Suspension::None => results.undefined(&q::SUSPENSION_NUMBER, "no suspension"),
+    }
+    sheet_results(sheet, solved, layers, &mut results);
+    results.set(&q::ROUGHNESS, layers.inflow.length * d);
+    results.set(&q::PHI_INTERFACE, layers.inflow.phi);
+    results.set(&q::BED_LEVEL, layers.z[0] * d);
+    results.set(&q::FLOW_HEIGHT, sheet.height);
+    results.set(&q::SOLID_VOLUME_BED, (state.m + state.rest) * d);
+    results.set(&q::SOLID_VOLUME_SUSPENSION, layers.totals.volume * d);
+    results.set(&q::SLOPE_SINE, state.sine);
+    results.set(&q::LID_STRESS, layers.lid * stress);
+    let fastest = layers
+        .levels
+        .iter()
+        .map(|level| (level.u, level.z))
+        .fold((layers.inflow.u, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+    results.set(&q::U_MAX, fastest.0 * velocity);
+    results.set(&q::U_MAX_LEVEL, (layers.z[0] + fastest.1) * d);
+    results.set(&q::CHANGE_OF_TYPE, solved.change_of_type * d);
+    if let Some(exact) = &solved.exact {
+        let exact = Layers::new(&solved.column.exact_yield(), exact).psi();
+        results.set(&q::REGULARISATION_RATE, layers.psi() / exact - 1.0);
+    }
+    results
+}
+
+/// The numbers of the moving layer.
+fn sheet_results(sheet: &SheetFlow, solved: &Solved, layers: &Layers, results: &mut Results) {
+    let (flow, state, d) = (&solved.column.flow, &solved.state, sheet.d);
+    let all = [
+        &q::SHEET_THICKNESS,
+        &q::SHEET_THICKNESS_FULL,
+        &q::SHEET_THICKNESS_FLAT,
+        &q::SHEET_PHI,
+        &q::YIELD_LEVEL,
+        &q::STRESS_CROSSOVER,
+        &q::VISCOUS_SHARE,
+        &q::FREE_FALL_SHARE,
+        &q::TURBULENT_SHARE,
+    ];
+    let Some(moving) = layers.sheet(solved) else {
+        all.into_iter().for_each(|quantity| {
+            results.undefined(quantity, "the regularisation loosens all of the bed by more than 0.1 %");
+        });
+        return;
+    };
+    let thickness = layers.z[0] - moving.bottom;
+    let phi = moving.volume / thickness;
+    if !(phi.is_finite() && phi > 0.0) {
+        all.into_iter().for_each(|quantity| results.undefined(quantity, "the moving layer has no thickness"));
+        return;
+    }
+    let cosine = (1.0 - state.sine * state.sine).sqrt();
+    let hold = flow.friction.mu_s * phi;
+    results.set(&q::SHEET_THICKNESS, thickness * d);
+    let net = hold * cosine - (1.0 / flow.delta + phi) * state.sine;
+    if net > 0.0 {
+        results.set(&q::SHEET_THICKNESS_FULL, state.tau_b / net * d);
+    } else {
+        results.undefined(&q::SHEET_THICKNESS_FULL, "the slope is more than the friction of grains at rest holds");
+    }
+    results.set(&q::SHEET_THICKNESS_FLAT, state.tau_b / hold * d);
+    results.set(&q::SHEET_PHI, phi);
+    results.set(&q::YIELD_LEVEL, moving.bottom * d);
+    match moving.crossover {
+        Some(z) => results.set(&q::STRESS_CROSSOVER, (z - moving.bottom) / thickness),
+        None => results.undefined(&q::STRESS_CROSSOVER, "grains and fluid carry equal stresses nowhere"),
+    }
+    results.set(&q::VISCOUS_SHARE, moving.viscous_share);
+    results.set(&q::FREE_FALL_SHARE, moving.falls.0);
+    results.set(&q::TURBULENT_SHARE, moving.falls.1);
+}
+
+fn balances(solved: &Solved, layers: &Layers) -> Vec<Balance> {
+    let (column, state) = (&solved.column, &solved.state);
+    let n = layers.cells.len();
+    // Down to the middle of the lowest cell.
+    let height = layers.z[0] - layers.middle(n - 1);
+    let solid: f64 = layers.cells.iter().map(|cell| cell.phi * cell.dz).sum();
+    let volume = solid - 0.5 * layers.cells[n - 1].dm;
+    let weight = column.flow.fluid_weight(state.sine) * height + state.sine * volume;
+    let carried = layers.s[n - 1] + layers.cells[n - 1].tau_p;
+    let momentum = (carried - weight) / state.tau_b - 1.0;
+    let whole = column.flow.dilatancy.phi_max * column.setting.level;
+    let (sediment, how) = match column.setting.reading {
+        BedReading::Initial => (
+            (solid + layers.totals.volume) / whole - 1.0,
+            "grains in the bed and in suspension against those of the bed at rest",
+        ),
+        BedReading::Final => {
+            (solid / (state.m + state.rest) - 1.0, "integral of the solid fraction of the bed against its grains")
+        }
+    };
+    let mut balances = vec![
+        balance("momentum", momentum, "stress at the bottom of the bed less its weight against that at the bed level"),
+        balance("sediment", sediment, how),
+    ];
+    if column.setting.lid != Lid::Solved {
+        let height = column.setting.height - layers.z[0];
+        let flow = column.flow.fluid_weight(state.sine) * height - layers.lid;
+        balances.push(balance(
+            "momentum_above",
+            flow / state.tau_b - 1.0,
+            "drive of the flow less the lid against the bed",
+        ));
+    }
+    if let Some(last) = solved.history.iter().copied().reduce(|_, last| last) {
+        balances.push(balance("solver", last, "last residual of the method"));
+    }
+    balances
+}
+
+/// Closures used outside their range.
+fn validity(sheet: &SheetFlow, results: &Results, layers: &Layers) -> Vec<Validity> {
+    let at = |info: &Info, range: &Range, value: f64, z: f64| {
+        outside(closure_name(info), range, value).map(|v| Validity { z_m: Some(z * sheet.d), ..v })
+    };
+    let phi = layers.inflow.phi;
+    let top = layers.z[0];
+    let largest = layers.cells.iter().map(|cell| cell.inertia).fold(0.0, f64::max);
+    let mut found: Vec<Validity> = Vec::new();
+    found.extend(at(&mu_i::INFO, &mu_i::INERTIAL_RANGE, largest, top));
+    found.extend(at(&phi_i::INFO, &phi_i::RANGE, phi, top));
+    for range in sheet.viscosity.info().ranges {
+        found.extend(at(sheet.viscosity.info(), range, phi, top));
+        found.extend(at(sheet.viscosity.info(), range, sheet.dilatancy.phi_max, 0.0));
+    }
+    if let Suspension::Rouse(_) = sheet.suspension {
+        found.extend(at(&rouse::INFO, &rouse::RANGE, phi, top));
+    }
+    if let Lid::ColebrookWhite(_) = sheet.lid {
+        let reynolds = sheet.rho_f * 2.0 * layers.totals.discharge * sheet.velocity_scale() * sheet.d / sheet.eta;
+        found.extend(at(&colebrook_white::INFO, &colebrook_white::RANGE, reynolds, sheet.height / sheet.d));
+    }
+    if let Some(thickness) = results.get(q::SHEET_THICKNESS.name) {
+        found.extend(outside("continuum/moving layer".into(), &THICKNESS, thickness / sheet.d));
+    }
+    if let Some(shields) = results.get(q::SHIELDS.name) {
+        found.extend(outside("continuum/sheet flow".into(), &SHEET, shields));
+    }
+    found
+}

@@ -1,0 +1,346 @@
+//! A turbulent flow over a bed that shears: the two-layer sheet flow.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::case::{BedReading, SheetFlowTables, SheetMethod, SheetSmoothing};
+use super::{equations, run};
+use crate::case::Fault;
+use crate::case::tables::SlopeDefinition;
+use crate::closures::Info;
+use crate::closures::dilatancy::{self, Dilatancy, PhiI};
+use crate::closures::drag::{self, Dallavalle, Drag};
+use crate::closures::friction::{self, Friction, MuI};
+use crate::closures::lid::Lid;
+use crate::closures::mixing_length::{self, BelowPacked, LiSawamoto, MixingLength};
+use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::rearrangement::Rearrangement;
+use crate::closures::suspension::Suspension;
+use crate::model::{
+    COLLISIONS, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, Term, TermTest,
+    TurbulentScene,
+};
+use crate::result::quantity as q;
+use crate::result::{Failure, Outcome};
+use crate::units::significant;
+
+/// A sheet flow. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetFlow {
+    /// density of the fluid [kg/m3]
+    pub rho_f: f64,
+    /// viscosity of the fluid [Pa s]
+    pub eta: f64,
+    /// density of the grains [kg/m3]
+    pub rho_p: f64,
+    /// diameter of the grains [m]
+    pub d: f64,
+    /// gravity [m/s2]
+    pub g: f64,
+    /// flow height [m]
+    pub height: f64,
+    /// bed level [m]
+    pub level: f64,
+    /// what the bed level is
+    pub reading: BedReading,
+    /// wanted fluid stress at the bed level [Pa]
+    pub tau_b: Option<f64>,
+    /// sine of the slope
+    pub sine: Option<f64>,
+    /// top of the flow
+    pub lid: Lid,
+    /// friction of the grains
+    pub friction: MuI,
+    /// dilatancy of the grains
+    pub dilatancy: PhiI,
+    /// rearrangement time of the grains
+    pub rearrangement: Rearrangement,
+    /// effective viscosity of the mixture
+    pub viscosity: MixtureViscosity,
+    /// drag between the phases
+    pub drag: Dallavalle,
+    /// mixing length of the turbulence
+    pub mixing_length: LiSawamoto,
+    /// grains in suspension
+    pub suspension: Suspension,
+    /// regularisation [1/s]; 0 for the exact yield
+    pub lambda: f64,
+    /// solid volume under the interface without the buoyancy of the viscous stress [m]
+    pub cut: f64,
+    /// whether it becomes deeper where the equations change type below it
+    pub deepen_cut: bool,
+    /// how it is solved
+    pub method: SheetMethod,
+    /// step of pseudo-time [s], relative residual and number of turns of the iteration
+    pub pace: (f64, f64, usize),
+}
+
+impl SheetFlow {
+    /// Stress scale (rho_p - rho_f) g d [Pa].
+    #[must_use]
+    pub fn stress_scale(&self) -> f64 {
+        (self.rho_p - self.rho_f) * self.g * self.d
+    }
+
+    /// Velocity scale sqrt((rho_p/rho_f - 1) g d) [m/s].
+    #[must_use]
+    pub fn velocity_scale(&self) -> f64 {
+        (self.stress_scale() / self.rho_f).sqrt()
+    }
+}
+
+/// Largest deviation from the grains, 20 to 25.2 % more transport at Shields numbers from 0.2 to 1 (docs/kinetic.md).
+const ERROR: f64 = 0.26;
+/// Drives, and those that were given.
+const DRIVES: [&str; 3] = ["shields", "u_star", "slope"];
+
+impl Model for OnMesh<SheetFlow> {
+    const INFO: ModelInfo = ModelInfo { name: "sheet-flow", stochastic: false };
+    type Tables = SheetFlowTables;
+
+    fn build(tables: &SheetFlowTables, faults: &mut Faults) -> Option<Self> {
+        let SheetFlowTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
+        if bed.level >= flow.height {
+            faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
+        }
+        if bed.level < grains.diameter {
+            faults.push(("bed.level", Fault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
+        }
+        if grains.density <= fluid.density {
+            faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+        }
+        let dilatancy = match closures.dilatancy {
+            Dilatancy::PhiI(law) => law,
+            other => {
+                let (law, allowed) = (other.info().law, vec![dilatancy::phi_i::INFO.law]);
+                let fault = Fault::LawMismatch { family: "dilatancy", law, model: Self::INFO.name.into(), allowed };
+                faults.push(("closures.dilatancy.law", fault));
+                return None;
+            }
+        };
+        if let MixtureViscosity::Boyer(law) = closures.mixture_viscosity
+            && law.phi_max < dilatancy.phi_max
+        {
+            let fault = Fault::PackedBeyond { law: "the viscosity", phi_max: law.phi_max, bed: dilatancy.phi_max };
+            faults.push(("closures.mixture_viscosity.phi_max", fault));
+        }
+        let drives: Vec<String> = [flow.shields, flow.u_star, flow.slope]
+            .iter()
+            .zip(DRIVES)
+            .filter_map(|(given, name)| given.map(|_| name.to_owned()))
+            .collect();
+        let solved = closures.lid == Lid::Solved;
+        let complete = if solved { flow.slope.is_some() && drives.len() == 2 } else { drives.len() == 1 };
+        if !complete {
+            let allowed = if solved {
+                vec!["slope with shields".to_owned(), "slope with u_star".to_owned()]
+            } else {
+                DRIVES.iter().map(|&name| name.to_owned()).collect()
+            };
+            faults.push(("flow", Fault::Drives { given: drives, allowed }));
+        }
+        let sine = flow.slope.map(|slope| slope_sine(slope, flow.slope_definition, faults));
+        let mismatch = |family, law, allowed| Fault::LawMismatch {
+            family,
+            law,
+            model: Self::INFO.name.into(),
+            allowed: vec![allowed],
+        };
+        let friction = match closures.friction {
+            Friction::MuI(law) => Some(law),
+            other => {
+                faults.push(("closures.friction.law", mismatch("friction", other.law(), friction::mu_i::INFO.law)));
+                None
+            }
+        };
+        if let Some(MuI { mu_s, mu_2, .. }) = friction
+            && mu_2 <= mu_s
+        {
+            faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s, mu_2 }));
+        }
+        let drag = match closures.drag {
+            Drag::Dallavalle(law) => Some(law),
+            other => {
+                faults.push(("closures.drag.law", mismatch("drag", other.info().law, drag::dallavalle::INFO.law)));
+                None
+            }
+        };
+        let mixing_length = match closures.mixing_length {
+            MixingLength::LiSawamoto(law) => Some(law),
+            other => {
+                let allowed = mixing_length::li_sawamoto::INFO.law;
+                faults.push(("closures.mixing_length.law", mismatch("mixing_length", other.info().law, allowed)));
+                None
+            }
+        };
+        if let Some(law) = mixing_length
+            && (law.phi_max < dilatancy.phi_max || law.below_packed == BelowPacked::Zero)
+        {
+            let fault = Fault::PackedBeyond { law: "the mixing length", phi_max: law.phi_max, bed: dilatancy.phi_max };
+            faults.push(("closures.mixing_length.phi_max", fault));
+        }
+        let lambda = match (regularisation.law, regularisation.lambda) {
+            (SheetSmoothing::None, None) => Some(0.0),
+            (SheetSmoothing::Simple, Some(lambda)) => Some(lambda),
+            (law, given) => {
+                let exact = law == SheetSmoothing::None;
+                faults
+                    .push(("regularisation", Fault::RegularisationSize { given: usize::from(given.is_some()), exact }));
+                None
+            }
+        };
+        if tables.model.method == SheetMethod::Iteration && lambda == Some(0.0) {
+            faults.push(("model.method", Fault::IterationNeedsCreep));
+        }
+        let (lambda, sine) = (lambda?, sine.map_or(Some(None), |sine| sine.map(Some))?);
+        let problem = SheetFlow {
+            rho_f: fluid.density,
+            eta: fluid.viscosity,
+            rho_p: grains.density,
+            d: grains.diameter,
+            g: flow.gravity,
+            height: flow.height,
+            level: bed.level,
+            reading: bed.reading,
+            tau_b: match (flow.shields, flow.u_star) {
+                (Some(shields), _) => Some(shields * (grains.density - fluid.density) * flow.gravity * grains.diameter),
+                (None, Some(u_star)) => Some(fluid.density * u_star * u_star),
+                (None, None) => None,
+            },
+            sine,
+            lid: closures.lid,
+            friction: friction?,
+            dilatancy,
+            rearrangement: closures.rearrangement,
+            viscosity: closures.mixture_viscosity,
+            drag: drag?,
+            mixing_length: mixing_length?,
+            suspension: closures.suspension,
+            lambda,
+            cut: regularisation.interface_cut * grains.diameter,
+            deepen_cut: regularisation.deepen_cut,
+            method: tables.model.method,
+            pace: (solver.time_step, solver.tolerance, solver.turns),
+        };
+        Some(Self { problem, cells: tables.grid.cells })
+    }
+
+    fn offer(flow: &Flow, tolerance: f64) -> Option<Offer> {
+        let Flow::Turbulent(scene) = flow else { return None };
+        let suspends = scene.suspends();
+        let serves = scene.is_measured() && scene.at_least(COLLISIONS) && tolerance >= ERROR;
+        if scene.walls || !(suspends || serves) {
+            return None;
+        }
+        let theta = significant(scene.theta, 3);
+        let because = if suspends {
+            format!("θ = {theta} and grains in suspension, which no other model has")
+        } else {
+            let [wanted, off] = [tolerance, ERROR].map(|share| format!("{} %", significant(100.0 * share, 2)));
+            format!("θ = {theta}, and {wanted} is enough: it carries up to {off} more than the grains")
+        };
+        let level = scene.bed_thickness();
+        let own = vec![
+            format!("flow.slope={:?}", scene.sine),
+            format!("closures.suspension.settling_velocity={:?}", scene.fall()),
+            format!("bed.level={level:?}"),
+            format!("flow.height={:?}", level + scene.depth),
+        ];
+        let overrides = (scene.kind != Self::INFO.name).then(|| [scene.matter(), own].concat());
+        Some(Offer { effort: Effort::Milliseconds, because, template: "sheet_1d_theta06", overrides })
+    }
+}
+
+impl Solve for OnMesh<SheetFlow> {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        run(&self.problem, self.cells, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        Description { form: None, equations: equations(&self.problem), laws: laws(&self.problem) }
+    }
+
+    fn cells(&self) -> usize {
+        self.cells
+    }
+
+    fn flow(&self) -> Result<Option<Flow>, Failure> {
+        let flow = &self.problem;
+        let solved = match Context::quiet(|context| self.solve(context)) {
+            Ok(outcome) => Some(outcome.results),
+            Err(_) if flow.tau_b.is_some() && flow.sine.is_some() => None,
+            Err(failure) => return Err(failure),
+        };
+        let result = |name: &str| solved.as_ref().and_then(|results| results.get(name));
+        let theta = flow.tau_b.map(|tau| tau / flow.stress_scale()).or(result(q::SHIELDS.name)).unwrap_or(f64::NAN);
+        let depth = flow.height - flow.level;
+        let balanced = theta * flow.stress_scale() / (flow.rho_f * flow.g * depth);
+        Ok(Some(Flow::Turbulent(TurbulentScene {
+            kind: Self::INFO.name,
+            rho_f: flow.rho_f,
+            rho_p: flow.rho_p,
+            nu: flow.eta / flow.rho_f,
+            d: flow.d,
+            g: flow.g,
+            depth,
+            sine: flow.sine.or(result(q::SLOPE_SINE.name)).unwrap_or(balanced),
+            theta,
+            mu_s: flow.friction.mu_s,
+            contacts: None,
+            settling: match flow.suspension {
+                Suspension::Rouse(law) => Some(law.settling_velocity),
+                Suspension::None => None,
+            },
+            walls: false,
+            grains: None,
+        })))
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        let solve = |what, change: &str, left| Term {
+            what,
+            source: "Revil-Baudard & Chauchat (2013)",
+            test: TermTest::Solve { change: vec![change.into()], left, free: false },
+            dropped: None,
+        };
+        let mut terms = Vec::new();
+        if self.problem.suspension != Suspension::None {
+            terms.push(solve("suspension", "closures.suspension={ law = \"none\" }", "a flow without it"));
+        }
+        if self.problem.viscosity != MixtureViscosity::Clear {
+            let left = "the viscosity of the clear fluid";
+            terms.push(solve("viscosity of the mixture", "closures.mixture_viscosity={ law = \"clear\" }", left));
+        }
+        let left = "the free-fall time alone";
+        let change = "closures.rearrangement={ law = \"free-fall\" }";
+        terms.push(solve("largest of three rearrangement times", change, left));
+        terms
+    }
+}
+
+/// Sine of a slope below the vertical.
+fn slope_sine(slope: f64, definition: SlopeDefinition, faults: &mut Faults) -> Option<f64> {
+    let (name, angle) = match definition {
+        SlopeDefinition::Tangent => ("tangent", slope.atan()),
+        SlopeDefinition::Sine => ("sine", slope.asin()),
+        SlopeDefinition::Angle => ("angle", slope),
+    };
+    // The arc sine of more than 1 is not a number.
+    if angle < FRAC_PI_2 {
+        return Some(if definition == SlopeDefinition::Sine { slope } else { angle.sin() });
+    }
+    faults.push(("flow.slope", Fault::TooSteep { definition: name, value: slope }));
+    None
+}
+
+fn laws(flow: &SheetFlow) -> Vec<&'static Info> {
+    vec![
+        &friction::mu_i::INFO,
+        &dilatancy::phi_i::INFO,
+        flow.rearrangement.info(),
+        flow.viscosity.info(),
+        &drag::dallavalle::INFO,
+        &mixing_length::li_sawamoto::INFO,
+        flow.suspension.info(),
+        flow.lid.info(),
+    ]
+}

@@ -1,0 +1,357 @@
+//! From nothing to the solution: a coarse mesh first, without the term that makes the equations change type; then the wanted
+//! mesh with it; then the regularisation.
+
+use super::bed::{STRIDE, State};
+use super::column::{Floor, Setting};
+use super::flow::Flow;
+use super::iteration::Pace;
+use super::mesh::Mesh;
+use super::newton::{Column, Reason, Stalled};
+use super::start::{Guess, TOP, mobile_volume};
+use crate::models::sheet_flow::BedReading;
+
+/// Cells of the coarse mesh, and share of the range of the friction at which the first guess lets the grains shear; tried in
+/// turn: on meshes of the moving grains, then on those of the whole bed, where the yield level finds itself.
+const TRIALS: [(Floor, usize, f64); 10] = [
+    (Floor::Yield, 60, 0.8),
+    (Floor::Yield, 60, 0.9),
+    (Floor::Bottom, 80, 0.8),
+    (Floor::Bottom, 80, 0.9),
+    (Floor::Bottom, 80, 0.6),
+    (Floor::Bottom, 50, 0.8),
+    (Floor::Bottom, 120, 0.8),
+    (Floor::Bottom, 120, 0.5),
+    (Floor::Bottom, 200, 0.7),
+    (Floor::Bottom, 160, 0.9),
+];
+/// The first guess of the iteration.
+pub const REST: Guess = Guess { floor: Floor::Bottom, friction: 0.8, mobile: None };
+/// I_0 and b that are easy, and the steps from there to those of the flow.
+const EASY: (f64, f64) = (0.3, 0.75);
+const EASING: u8 = 6;
+/// All of a bed may move if the balance of the moving layer estimates this share of its grains to.
+const CREDIBLE: f64 = 0.4;
+/// Relative residual at which a coarse solution is good enough to start from.
+const ROUGH: f64 = 1e-5;
+/// Smallest share of the stress that grains carry where they come to rest, in a solution that is one of the flow: there it is
+/// 0.94 and more, and in spurious ones, where the viscosity of packed grains carries the rest, below 0.01.
+const CARRIED: f64 = 0.5;
+/// A cut that is short by less than this share is long enough.
+const ROUNDING: f64 = 0.02;
+/// The cut lies this far below the change of type.
+const BEYOND: f64 = 1.2;
+/// Slip of the first guess in grains that creep, in units of the largest slip.
+const SEEPAGE: f64 = 1e-4;
+/// Regularisation, scaled, and pace of the iteration where no first guess of Newton's method leads anywhere.
+const DETOUR: (f64, Pace) = (1e-5, Pace { dt: 1.0, tolerance: 1e-6, most: 20_000 });
+/// Steps in which the bed level rises, as a share of the height above it.
+const STEP: f64 = 0.03;
+/// Factor between regularisations, where one step from the exact yield is too long.
+const LADDER: f64 = 100.0;
+/// Smallest rung of that ladder, scaled.
+const LOWEST: f64 = 1e-16;
+
+/// A solved column.
+#[derive(Clone, Debug)]
+pub struct Solved {
+    /// the discrete column; its cut is the one that was used
+    pub column: Column,
+    /// its solution
+    pub state: State,
+    /// the solution with the exact yield on the same mesh, where there is a regularisation and it was computed
+    pub exact: Option<State>,
+    /// residuals, of all stages
+    pub history: Vec<f64>,
+    /// solid volume under the interface down to which the equations change type
+    pub change_of_type: f64,
+}
+
+/// A column with the exact yield, its solution, and the depth of the change of type.
+type Exact = (Column, State, f64);
+
+/// Solves the column on `cells` cells.
+///
+/// # Errors
+/// [`Stalled`] with the smallest residual if no way leads to a solution.
+pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stalled> {
+    let mut history = Vec::new();
+    let mut last = Stalled::new(f64::INFINITY, 0);
+    for trial in TRIALS.into_iter().map(Some).chain([None]) {
+        // Where everything seems to move, another guess may know better; the iteration does not.
+        if trial.is_none() && last.reason.is_some() {
+            break;
+        }
+        let attempt = coarse(flow, setting, trial, cells, &mut history)
+            .and_then(|from| refine(flow, setting, cells, &from, &mut history));
+        match attempt {
+            Ok((_, state, _)) if state.rest < 0.0 => {
+                last = Stalled { reason: Some(Reason::AllMove), ..Stalled::new(0.0, history.len()) };
+            }
+            Ok((column, state, _)) if column.carried(&state) < CARRIED => {
+                let reason = last.reason.or(Some(Reason::Locked(column.carried(&state))));
+                last = Stalled { reason, ..Stalled::new(0.0, history.len()) };
+            }
+            Ok((column, state, change_of_type)) if flow.lambda == 0.0 => {
+                return Ok(Solved { column, state, exact: None, history, change_of_type });
+            }
+            Ok((column, state, change_of_type)) => {
+                let (column, state, exact) = column.creep(&state, flow.lambda, &mut history)?;
+                return Ok(Solved { column, state, exact, history, change_of_type });
+            }
+            Err(stalled) => {
+                let open = match last.reason {
+                    None => stalled.residual < last.residual || stalled.reason.is_some(),
+                    Some(Reason::Locked(_)) => stalled.reason.is_some(),
+                    Some(_) => false,
+                };
+                if open {
+                    last = stalled;
+                }
+                if let Some(Reason::RunsAway(_)) = stalled.reason {
+                    return Err(Stalled { iterations: history.len(), ..stalled });
+                }
+            }
+        }
+    }
+    Err(Stalled { iterations: history.len(), ..last })
+}
+
+/// The exact yield on a coarse mesh, at the given bed level and without the term that makes the equations change type: from
+/// the guess of a trial, or for `None` by some turns of the iteration, which is slow and goes where Newton does not.
+fn coarse(
+    flow: Flow,
+    setting: Setting,
+    trial: Option<(Floor, usize, f64)>,
+    cells: usize,
+    history: &mut Vec<f64>,
+) -> Result<(Column, State), Stalled> {
+    let open = Flow { cut: f64::INFINITY, lambda: 0.0, ..flow };
+    // The amount of grains is settled last.
+    let setting = Setting { reading: BedReading::Final, ..setting };
+    let (floor, size, friction) = trial.unwrap_or((Floor::Bottom, 80, 0.8));
+    if trial.is_none()
+        && let Ok(eased) = ease(open, setting, cells, history)
+    {
+        return Ok(eased);
+    }
+    let (mut column, mut state) =
+        Column::start(open, setting, size.min(cells), Guess { floor, friction, mobile: None });
+    if trial.is_none() {
+        column.flow.lambda = DETOUR.0;
+        state = column.iterate(state, &DETOUR.1, history, |_, _| false)?;
+        state = column.newton_to(state, ROUGH, history)?;
+        column.flow.lambda = 0.0;
+    }
+    let state = column.newton_to(state, ROUGH, history)?;
+    Ok((column, state))
+}
+
+/// The coarse solution from that of grains which resist and spread more readily: small I_0 and b are what Newton's method
+/// finds hard.
+fn ease(flow: Flow, setting: Setting, cells: usize, history: &mut Vec<f64>) -> Result<(Column, State), Stalled> {
+    let (floor, size, friction) = TRIALS[0];
+    let (i_0, b) = (flow.friction.i_0, flow.dilatancy.b);
+    let eased = |share: f64| {
+        let mut eased = flow;
+        eased.friction.i_0 = i_0 * (EASY.0 / i_0).max(1.0).powf(share);
+        eased.dilatancy.b = b * (EASY.1 / b).max(1.0).powf(share);
+        eased
+    };
+    let (mut column, mut state) =
+        Column::start(eased(1.0), setting, size.min(cells), Guess { floor, friction, mobile: None });
+    for k in (0..=EASING).rev() {
+        column.flow = eased(f64::from(k) / f64::from(EASING));
+        state = column.newton_to(state, ROUGH, history)?;
+    }
+    Ok((column, state))
+}
+
+/// From the coarse mesh to the wanted one, with the term, and to the wanted reading.
+fn refine(
+    flow: Flow,
+    setting: Setting,
+    cells: usize,
+    (coarse, rough): &(Column, State),
+    history: &mut Vec<f64>,
+) -> Result<Exact, Stalled> {
+    let exact = Flow { lambda: 0.0, ..flow };
+    // Some coarse solutions have locked or loose layers that are none of the flow: the balance of the layer knows.
+    let estimate = mobile_volume(&coarse.flow, rough.tau_b, rough.sine);
+    let credible = estimate > CREDIBLE * flow.dilatancy.phi_max * setting.level;
+    let all_move =
+        Stalled { reason: credible.then_some(Reason::AllMove), ..Stalled::new(f64::INFINITY, history.len()) };
+    let mobile = coarse.yield_volume(rough).ok_or(all_move)?;
+    let rest = match setting.reading {
+        BedReading::Final => rough.m + rough.rest - mobile,
+        BedReading::Initial => flow.dilatancy.phi_max * setting.level - mobile,
+    };
+    if rest <= 0.0 {
+        return Err(all_move);
+    }
+    let from = Guess { floor: Floor::Yield, friction: REST.friction, mobile: Some(mobile) };
+    let (mut column, _) = Column::start(exact, setting, cells, from);
+    let cut = column.flow.cut.max(BEYOND * coarse.change_of_type(rough));
+    column.flow.cut = cut;
+    let start = coarse.transfer(rough, &column.mesh, (mobile, rest));
+    let mut attempt = column.newton(start.clone(), history);
+    if attempt.is_err() {
+        // The mesh first, the term then.
+        column.flow.cut = f64::INFINITY;
+        let open = column.newton(start.clone(), history);
+        column.flow.cut = cut;
+        attempt = open.and_then(|state| column.newton(state, history));
+    }
+    let mut state = match attempt {
+        Err(_) if setting.reading == BedReading::Initial => column.rise(start, history)?,
+        other => other?,
+    };
+    let mut depth = column.change_of_type(&state);
+    while BEYOND * depth > column.flow.cut * (1.0 + ROUNDING) {
+        column.flow.cut = BEYOND * depth;
+        state = column.newton(state, history)?;
+        depth = column.change_of_type(&state);
+    }
+    Ok((column, state, depth))
+}
+
+/// Iterates the column on `cells` cells from a first guess, with a cut as deep as it turns out to be needed.
+///
+/// # Errors
+/// As [`Column::iterate`].
+pub fn iterate(
+    flow: Flow,
+    setting: Setting,
+    cells: usize,
+    pace: &Pace,
+    mut stop: impl FnMut(usize, f64) -> bool,
+) -> Result<Solved, Stalled> {
+    let mut history = Vec::new();
+    let (mut column, guess) = Column::start(flow, setting, cells, REST);
+    let mut state = column.iterate(guess, pace, &mut history, &mut stop)?;
+    let mut change_of_type = column.change_of_type(&state);
+    while BEYOND * change_of_type > column.flow.cut * (1.0 + ROUNDING) {
+        column.flow.cut = BEYOND * change_of_type;
+        state = column.iterate(state, pace, &mut history, &mut stop)?;
+        change_of_type = column.change_of_type(&state);
+    }
+    // Where a flow has a moving layer, its grains carry mu_s P_p and more; in locked ones none does.
+    let yields = (0..column.mesh.cells()).any(|c| state.r(c) > column.flow.friction.mu_s);
+    if !yields {
+        return Err(Stalled {
+            reason: Some(Reason::Locked(column.carried(&state))),
+            ..Stalled::new(0.0, history.len())
+        });
+    }
+    Ok(Solved { column, state, exact: None, history, change_of_type })
+}
+
+impl Column {
+    /// The same column with the exact yield.
+    #[must_use]
+    pub fn exact_yield(&self) -> Self {
+        Self { flow: Flow { lambda: 0.0, ..self.flow }, ..self.clone() }
+    }
+
+    /// Solid volume under the interface down to which the coefficient of the highest derivative, `P_p + phi dtau_f/dr` at a
+    /// given total stress, is negative; 0 where it is positive everywhere.
+    #[must_use]
+    pub fn change_of_type(&self, state: &State) -> f64 {
+        let negative = |c: &usize| {
+            let cell = super::linear::local_cell(&self.flow, &self.mesh, state, *c);
+            let pressure = cell.pressure.value;
+            let slope = cell.tau_f.slope[2] - pressure * cell.tau_f.slope[3];
+            pressure + cell.phi.value * slope < 0.0
+        };
+        (0..self.mesh.cells()).rev().find(negative).map_or(0.0, |c| state.m * self.mesh.nodes[c + 1])
+    }
+
+    /// Share of the stress that the grains carry in the last of the cells of the moving grains; of the whole bed, in the one with the
+    /// most mobilised friction.
+    fn carried(&self, state: &State) -> f64 {
+        let most = (0..self.mesh.cells()).max_by(|a, b| state.r(*a).total_cmp(&state.r(*b))).unwrap_or(0);
+        let last = if self.floor == Floor::Yield { self.mesh.cells() - 1 } else { most };
+        let pressure = super::linear::local_cell(&self.flow, &self.mesh, state, last).pressure.value;
+        let grains = state.r(last) * pressure;
+        let share = grains / (grains + state.s(last));
+        if share.is_finite() { share } else { 0.0 }
+    }
+
+    /// Solid volume over the lowest place where the grains carry just mu_s P_p; `None` if they carry more down to the bottom.
+    #[must_use]
+    pub fn yield_volume(&self, state: &State) -> Option<f64> {
+        if self.floor == Floor::Yield {
+            return Some(state.m);
+        }
+        let mu_s = self.flow.friction.mu_s;
+        let c = (0..self.mesh.cells()).rev().find(|&c| state.r(c) > mu_s)?;
+        if c + 1 == self.mesh.cells() {
+            return None;
+        }
+        let (a, b) = (self.mesh.middles[c], self.mesh.middles[c + 1]);
+        let share = (state.r(c) - mu_s) / (state.r(c) - state.r(c + 1));
+        Some(state.m * (a + share * (b - a)))
+    }
+
+    /// The solution that conserves the grains, from the one at the level of the bed at rest: the level in the flow rises in
+    /// small steps until the grains are all there.
+    fn rise(&mut self, start: State, history: &mut Vec<f64>) -> Result<State, Stalled> {
+        let wanted = self.setting;
+        let step = STEP * (wanted.height - wanted.level);
+        self.setting.reading = BedReading::Final;
+        let mut state = self.newton(start, history)?;
+        let found = loop {
+            let missing = wanted.closing_residual(self, &state)[2];
+            if missing >= 0.0 {
+                break Ok(state);
+            }
+            self.setting.level += step;
+            state = match self.newton(state, history) {
+                Ok(next) if self.setting.level < wanted.height => next,
+                _ => {
+                    let residual = history.last().copied().unwrap_or(f64::INFINITY);
+                    break Err(Stalled {
+                        residual,
+                        iterations: history.len(),
+                        reason: Some(Reason::RunsAway(self.setting.level)),
+                    });
+                }
+            };
+        };
+        self.setting = wanted;
+        self.newton(found?, history)
+    }
+
+    /// From the exact yield on the mesh of the moving grains to the regularisation `lambda` on that of the whole bed, at once
+    /// or by smaller ones; the last is the exact yield there, if it was found.
+    fn creep(
+        &self,
+        exact: &State,
+        lambda: f64,
+        history: &mut Vec<f64>,
+    ) -> Result<(Self, State, Option<State>), Stalled> {
+        let whole = exact.m + exact.rest;
+        let mesh = Mesh::bed(self.mesh.cells(), TOP / whole, exact.m / whole);
+        let mut start = self.transfer(exact, &mesh, (whole, 0.0));
+        let mut column = Self { mesh, floor: Floor::Bottom, ..self.clone() };
+        let exact = column.newton(start.clone(), history).ok();
+        start = exact.clone().unwrap_or(start);
+        let n = column.mesh.cells();
+        let largest = (0..n).map(|c| start.w(c)).fold(0.0, f64::max);
+        for c in 0..n {
+            let w = &mut start.x[STRIDE * c + 1];
+            *w = w.max(SEEPAGE * largest);
+        }
+        column.flow.lambda = lambda;
+        if let Ok(state) = column.newton(start.clone(), history) {
+            return Ok((column, state, exact));
+        }
+        column.flow.lambda = LOWEST;
+        while column.flow.lambda < lambda {
+            start = column.newton(start, history)?;
+            column.flow.lambda *= LADDER;
+        }
+        column.flow.lambda = lambda;
+        let state = column.newton(start, history)?;
+        Ok((column, state, exact))
+    }
+}

@@ -1,0 +1,278 @@
+//! The tables that only a two-fluid flow has.
+
+use crate::case::tables::Fluid;
+use crate::tables;
+use schemars::{JsonSchema, Schema};
+use serde::{Deserialize, Serialize};
+
+use crate::case::tables::{SlopeDefinition, one_of};
+use crate::closures::dispersion::Dispersion;
+use crate::closures::drag::GrainDrag;
+use crate::closures::kinetic::radial::PHI_MAX;
+use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
+use crate::closures::mixing_length::MixingLength;
+
+/// Grains that collide.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CollidingGrains {
+    /// Diameter of the grains.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub diameter: f64,
+    /// Density of the grains.
+    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0, "maximum" = 30000.0))]
+    pub density: f64,
+    /// Restitution coefficient of two grains.
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1.0))]
+    pub restitution: f64,
+    /// Friction coefficient between two grains.
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
+    pub friction: f64,
+}
+
+/// The grains at rest, before they flow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TwoFluidBed {
+    /// Thickness of the layer of grains at rest.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub thickness: f64,
+    /// Solid fraction of that layer: together they are the amount of grains, which is kept. Below phi_max.
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
+    pub phi: f64,
+    /// Solid fraction at which the grains jam: in the radial distribution function and in the elastic pressure.
+    #[serde(default = "phi_max")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
+    pub phi_max: f64,
+}
+
+fn phi_max() -> f64 {
+    PHI_MAX
+}
+
+/// A flow down a slope under a free surface. Exactly one of depth and shields.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(transform = depths)]
+pub struct TwoFluidFlow {
+    /// Depth of the fluid over the layer of grains at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "minimum" = 0.0, "maximum" = 1e4))]
+    pub depth: Option<f64>,
+    /// Nominal Shields number rho_f g depth sin(slope)/((rho_p - rho_f) g d); the depth that gives it follows.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub shields: Option<f64>,
+    /// Drive: the slope, as slope_definition says.
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
+    pub slope: f64,
+    /// What the number given as slope is: papers differ.
+    pub slope_definition: SlopeDefinition,
+    /// Acceleration of gravity.
+    #[serde(default = "gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+    /// Waves: a pressure gradient that goes to and fro, besides the slope; only for a flow in time.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub oscillation: Option<Oscillation>,
+}
+
+/// A pressure gradient that goes to and fro, of the fluid and the grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Oscillation {
+    /// Amplitude G of the fall of pressure along the flow: -dp/dx = G cos(2 pi t/period).
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
+    pub amplitude: f64,
+    /// Period.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
+    pub period: f64,
+}
+
+fn gravity() -> f64 {
+    9.81
+}
+
+fn depths(schema: &mut Schema) {
+    one_of(schema, &["depth", "shields"]);
+}
+
+/// The model: two fluids, one of which is made of grains that collide.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TwoFluidModel {
+    /// What kind of model: grains and fluid as two fluids, with the velocity fluctuations of the grains.
+    pub kind: TwoFluidKind,
+    /// Whether the steady flow is solved for, or the flow in time.
+    #[serde(default)]
+    pub state: State,
+    /// Whether the stress of the fluid carries the factor 1 - phi.
+    #[serde(default)]
+    pub fluid_stress: FluidStress,
+}
+
+/// Two fluids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum TwoFluidKind {
+    /// Grains and fluid as two fluids, with the velocity fluctuations of the grains.
+    TwoFluid,
+}
+
+/// Whether the steady flow is solved for, or the flow in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum State {
+    /// The steady flow, by Newton's method.
+    #[default]
+    Steady,
+    /// The flow in time, from the grains at rest under still fluid.
+    Transient,
+}
+
+/// What the stress of the fluid is per area of.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum FluidStress {
+    /// rho_f (1 - phi)(nu + nu_t) du_f/dz, as printed: eq. (2.7).
+    #[default]
+    Share,
+    /// rho_f (nu + nu_t) du_f/dz, as in a public code.
+    Whole,
+}
+
+/// Laws of the two fluids.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TwoFluidClosures {
+    /// Stresses of grains that move.
+    pub granular: Granular,
+    /// Pressure of enduring contacts.
+    #[serde(default)]
+    pub elastic: Elastic,
+    /// Friction of enduring contacts; mu(I) has its own.
+    #[serde(default)]
+    pub static_friction: StaticFriction,
+    /// Drag between the phases.
+    pub drag: GrainDrag,
+    /// Mixing length of the turbulence.
+    pub mixing_length: MixingLength,
+    /// Grains that the turbulence carries.
+    #[serde(default)]
+    pub dispersion: Dispersion,
+}
+
+/// Small numbers of the two fluids.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TwoFluidRegularisation {
+    /// Granular temperature that grains keep in the fluid: it picks the branch with motion, since none is a solution always.
+    #[serde(default = "temperature")]
+    #[schemars(extend("x-unit" = "m2/s2", "exclusiveMinimum" = 0.0, "maximum" = 1e-2))]
+    pub granular_temperature: f64,
+    /// Shear rate below which enduring contacts creep instead of standing still.
+    #[serde(default = "shear_rate")]
+    #[schemars(extend("x-unit" = "1/s", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+    pub shear_rate: f64,
+    /// Solid fraction below which grains have no weight: what is left of them in clear fluid.
+    #[serde(default = "residual")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 1e-20, "maximum" = 1e-3))]
+    pub phi: f64,
+}
+
+fn temperature() -> f64 {
+    1e-8
+}
+
+fn shear_rate() -> f64 {
+    1e-6
+}
+
+fn residual() -> f64 {
+    1e-12
+}
+
+impl Default for TwoFluidRegularisation {
+    fn default() -> Self {
+        Self { granular_temperature: temperature(), shear_rate: shear_rate(), phi: residual() }
+    }
+}
+
+/// The flow in time; the steady one takes none of these.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TwoFluidSolver {
+    /// Simulated time.
+    #[serde(default = "duration")]
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
+    pub duration: f64,
+    /// Largest error of a step, relative: in solid fraction, momenta and fluctuation energy.
+    #[serde(default = "tolerance")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 1e-9, "maximum" = 0.1))]
+    pub tolerance: f64,
+    /// Samples of the series, evenly spaced.
+    #[serde(default = "samples")]
+    #[schemars(extend("minimum" = 2, "maximum" = 100_000))]
+    pub samples: usize,
+}
+
+fn duration() -> f64 {
+    20.0
+}
+
+fn tolerance() -> f64 {
+    1e-3
+}
+
+fn samples() -> usize {
+    200
+}
+
+impl Default for TwoFluidSolver {
+    fn default() -> Self {
+        Self { duration: duration(), tolerance: tolerance(), samples: samples() }
+    }
+}
+
+/// Cells of the column.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct TwoFluidGrid {
+    /// Number of cells.
+    #[serde(default = "cells")]
+    #[schemars(extend("minimum" = 20, "maximum" = 100_000))]
+    pub cells: usize,
+    /// Distance from the level of the grains at rest within which cells stay fine: their heights grow with the distance z
+    /// from it like (1 + (z/fine)^2)^(1/2). Without, all have the same height.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub fine: Option<f64>,
+}
+
+fn cells() -> usize {
+    240
+}
+
+impl Default for TwoFluidGrid {
+    fn default() -> Self {
+        Self { cells: cells(), fine: None }
+    }
+}
+
+tables! {
+    /// Grains that collide and the turbulent fluid that drives them, as two fluids of one dimension.
+    pub struct TwoFluidTables {
+        /// The fluid.
+        fluid: Fluid,
+        /// The grains.
+        grains: CollidingGrains,
+        /// The grains at rest.
+        bed: TwoFluidBed,
+        /// Geometry and drive.
+        flow: TwoFluidFlow,
+        /// The model.
+        model: TwoFluidModel,
+        /// Laws.
+        closures: TwoFluidClosures,
+        /// Small numbers.
+        #[serde(default)]
+        regularisation: TwoFluidRegularisation,
+        /// Cells of the column.
+        #[serde(default)]
+        grid: TwoFluidGrid,
+        /// The flow in time.
+        #[serde(default)]
+        solver: TwoFluidSolver,
+    }
+}

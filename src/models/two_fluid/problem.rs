@@ -1,0 +1,272 @@
+//! Problems of grains and fluid as two fluids.
+
+use std::f64::consts::FRAC_PI_2;
+
+use super::case::{FluidStress, State, TwoFluidTables};
+use super::{equations, run};
+use crate::case::Fault;
+use crate::case::tables::SlopeDefinition;
+use crate::closures::dispersion::Dispersion;
+use crate::closures::drag::{DallavalleGrain, GrainDrag};
+use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
+use crate::closures::mixing_length::{self, BelowPacked, MixingLength};
+use crate::closures::{Info, drag};
+use crate::model::{
+    BULK_FRICTION, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, TurbulentScene,
+};
+use crate::result::{Failure, Outcome};
+use crate::units::significant;
+
+/// A two-fluid flow. All values SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwoFluid {
+    /// density of the fluid [kg/m3]
+    pub rho_f: f64,
+    /// viscosity of the fluid [Pa s]
+    pub eta: f64,
+    /// density of the grains [kg/m3]
+    pub rho_p: f64,
+    /// diameter of the grains [m]
+    pub d: f64,
+    /// restitution coefficient
+    pub e: f64,
+    /// friction coefficient between two grains
+    pub mu_p: f64,
+    /// thickness of the layer of grains at rest [m]
+    pub thickness: f64,
+    /// its solid fraction
+    pub phi: f64,
+    /// solid fraction at which the grains jam
+    pub phi_max: f64,
+    /// depth of the fluid over it [m]
+    pub depth: f64,
+    /// angle of the slope [rad]
+    pub beta: f64,
+    /// gravity [m/s2]
+    pub g: f64,
+    /// steady or in time
+    pub state: State,
+    /// factor of the stress of the fluid
+    pub fluid_stress: FluidStress,
+    /// stresses of grains that move
+    pub granular: Granular,
+    /// pressure of enduring contacts
+    pub elastic: Elastic,
+    /// friction of enduring contacts
+    pub static_friction: StaticFriction,
+    /// drag between the phases
+    pub drag: DallavalleGrain,
+    /// mixing length of the turbulence
+    pub mixing_length: MixingLength,
+    /// grains that the turbulence carries
+    pub dispersion: Dispersion,
+    /// granular temperature that grains keep in the fluid [m2/s2]
+    pub temperature_floor: f64,
+    /// shear rate below which enduring contacts creep [1/s]
+    pub rate_floor: f64,
+    /// solid fraction below which grains have no weight
+    pub phi_floor: f64,
+    /// distance from the level of the grains at rest within which cells stay fine [m]; all of the same height without
+    pub fine: Option<f64>,
+    /// amplitude [Pa/m] and period [s] of a pressure gradient that goes to and fro
+    pub oscillation: Option<(f64, f64)>,
+    /// simulated time [s], error of a step, and number of samples
+    pub pace: (f64, f64, usize),
+}
+
+impl TwoFluid {
+    /// Stress scale (rho_p - rho_f) g d [Pa].
+    #[must_use]
+    pub fn stress_scale(&self) -> f64 {
+        (self.rho_p - self.rho_f) * self.g * self.d
+    }
+
+    /// Velocity scale sqrt((rho_p/rho_f - 1) g d) [m/s].
+    #[must_use]
+    pub fn velocity_scale(&self) -> f64 {
+        (self.stress_scale() / self.rho_f).sqrt()
+    }
+
+    /// Nominal Shields number: the weight of the fluid over the grains at rest, along the slope.
+    #[must_use]
+    pub fn shields(&self) -> f64 {
+        self.rho_f * self.g * self.depth * self.beta.sin() / self.stress_scale()
+    }
+}
+
+impl Model for OnMesh<TwoFluid> {
+    const INFO: ModelInfo = ModelInfo { name: "two-fluid", stochastic: false };
+    type Tables = TwoFluidTables;
+
+    fn build(tables: &TwoFluidTables, faults: &mut Faults) -> Option<Self> {
+        let TwoFluidTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
+        let (definition, beta) = match flow.slope_definition {
+            SlopeDefinition::Tangent => ("tangent", flow.slope.atan()),
+            SlopeDefinition::Sine => ("sine", flow.slope.asin()),
+            SlopeDefinition::Angle => ("angle", flow.slope),
+        };
+        // The arc sine of more than 1 is not a number: not (beta < pi/2) catches it.
+        let upright = beta < FRAC_PI_2;
+        if !upright {
+            faults.push(("flow.slope", Fault::TooSteep { definition, value: flow.slope }));
+        }
+        if grains.density <= fluid.density {
+            faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+        }
+        if bed.thickness < grains.diameter {
+            let fault = Fault::ThinnerThanAGrain { level: bed.thickness, diameter: grains.diameter };
+            faults.push(("bed.thickness", fault));
+        }
+        if bed.phi >= bed.phi_max {
+            faults.push(("bed.phi", below("phi", bed.phi, bed.phi_max)));
+        }
+        if let Elastic::JohnsonJackson(law) = closures.elastic
+            && law.phi_rlp >= bed.phi_max
+        {
+            faults.push(("closures.elastic.phi_rlp", below("phi_rlp", law.phi_rlp, bed.phi_max)));
+        }
+        if let Granular::MuI(law) = closures.granular
+            && law.mu_2 <= law.mu_s
+        {
+            faults.push(("closures.granular.mu_2", Fault::FrictionFalls { mu_s: law.mu_s, mu_2: law.mu_2 }));
+        }
+        if let MixingLength::LiSawamoto(law) = closures.mixing_length
+            && law.below_packed == BelowPacked::Zero
+        {
+            let (law, allowed) =
+                ("li-sawamoto with below_packed = \"zero\"", vec![mixing_length::li_sawamoto::INFO.law]);
+            let fault = Fault::LawMismatch { family: "mixing_length", law, model: Self::INFO.name.into(), allowed };
+            faults.push(("closures.mixing_length.below_packed", fault));
+        }
+        let depth = match (flow.depth, flow.shields) {
+            (Some(depth), None) => Some(depth),
+            (None, Some(shields)) if flow.slope > 0.0 => {
+                Some(shields * (grains.density / fluid.density - 1.0) * grains.diameter / beta.sin())
+            }
+            (None, Some(_)) => {
+                let allowed = "more than 0 where a Shields number is wanted".to_owned();
+                faults.push(("flow.slope", Fault::OutOfRange { name: "slope".into(), value: flow.slope, allowed }));
+                None
+            }
+            (depth, shields) => {
+                let given = [depth.map(|_| "depth"), shields.map(|_| "shields")];
+                let given = given.into_iter().flatten().map(str::to_owned).collect();
+                let allowed = vec!["depth".to_owned(), "shields".to_owned()];
+                faults.push(("flow", Fault::Drives { given, allowed }));
+                None
+            }
+        };
+        if flow.oscillation.is_some() && tables.model.state == State::Steady {
+            faults.push(("flow.oscillation", Fault::NeedsTime));
+        }
+        let GrainDrag::DallavalleGrain(drag) = closures.drag;
+        let problem = TwoFluid {
+            rho_f: fluid.density,
+            eta: fluid.viscosity,
+            rho_p: grains.density,
+            d: grains.diameter,
+            e: grains.restitution,
+            mu_p: grains.friction,
+            thickness: bed.thickness,
+            phi: bed.phi,
+            phi_max: bed.phi_max,
+            depth: depth?,
+            beta,
+            g: flow.gravity,
+            state: tables.model.state,
+            fluid_stress: tables.model.fluid_stress,
+            granular: closures.granular,
+            elastic: closures.elastic,
+            static_friction: closures.static_friction,
+            drag,
+            mixing_length: closures.mixing_length,
+            dispersion: closures.dispersion,
+            temperature_floor: regularisation.granular_temperature,
+            rate_floor: regularisation.shear_rate,
+            phi_floor: regularisation.phi,
+            fine: tables.grid.fine,
+            oscillation: flow.oscillation.map(|waves| (waves.amplitude, waves.period)),
+            pace: (solver.duration, solver.tolerance, solver.samples),
+        };
+        Some(Self { problem, cells: tables.grid.cells })
+    }
+
+    fn offer(flow: &Flow, tolerance: f64) -> Option<Offer> {
+        /// Largest deviation from the grains, -4 to +14 % from this Shields number on, to 1 (docs/kinetic.md). Below, at 0.2,
+        /// more than half of the transport is missed.
+        const MEASURED: (f64, f64) = (0.4, 0.15);
+        let Flow::Turbulent(scene) = flow else { return None };
+        let known = !scene.walls && scene.is_measured() && scene.at_least(MEASURED.0);
+        if !known || scene.suspends() || tolerance < MEASURED.1 {
+            return None;
+        }
+        let [wanted, off] = [tolerance, MEASURED.1].map(|share| format!("{} %", significant(100.0 * share, 2)));
+        let theta = significant(scene.theta, 3);
+        let mut own = vec![
+            format!("bed.thickness={:?}", scene.bed_thickness()),
+            format!("flow.shields={:?}", scene.theta),
+            format!("flow.slope={:?}", scene.sine),
+        ];
+        if let Some((mu, e)) = scene.contacts {
+            own.extend([format!("grains.friction={mu:?}"), format!("grains.restitution={e:?}")]);
+        }
+        Some(Offer {
+            effort: Effort::Seconds,
+            because: format!("θ = {theta}, and {wanted} is enough: it is within {off} of the grains"),
+            template: "kinetic_1d_theta06",
+            overrides: (scene.kind != Self::INFO.name).then(|| [scene.matter(), own].concat()),
+        })
+    }
+}
+
+impl Solve for OnMesh<TwoFluid> {
+    fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        run(&self.problem, self.cells, context.watch)
+    }
+
+    fn describe(&self) -> Description {
+        Description { form: None, equations: equations(&self.problem), laws: laws(&self.problem) }
+    }
+
+    fn cells(&self) -> usize {
+        self.cells
+    }
+
+    fn flow(&self) -> Result<Option<Flow>, Failure> {
+        let flow = &self.problem;
+        // Waves, settling and dry grains have no other model.
+        let steady = flow.state == State::Steady && flow.oscillation.is_none();
+        let in_water = flow.shields() > 0.0 && flow.rho_p < 20.0 * flow.rho_f;
+        Ok((steady && in_water).then(|| {
+            Flow::Turbulent(TurbulentScene {
+                kind: Self::INFO.name,
+                rho_f: flow.rho_f,
+                rho_p: flow.rho_p,
+                nu: flow.eta / flow.rho_f,
+                d: flow.d,
+                g: flow.g,
+                depth: flow.depth,
+                sine: flow.beta.sin(),
+                theta: flow.shields(),
+                mu_s: BULK_FRICTION,
+                contacts: Some((flow.mu_p, flow.e)),
+                settling: None,
+                walls: false,
+                grains: None,
+            })
+        }))
+    }
+}
+
+/// A solid fraction that is not below that of jammed grains.
+fn below(name: &str, value: f64, phi_max: f64) -> Fault {
+    Fault::OutOfRange { name: name.into(), value, allowed: format!("less than bed.phi_max = {phi_max}") }
+}
+
+fn laws(flow: &TwoFluid) -> Vec<&'static Info> {
+    let mut laws = vec![flow.granular.info()];
+    laws.extend(flow.granular.parts());
+    laws.extend([flow.elastic.info(), flow.static_friction.info(), &drag::dallavalle_grain::INFO]);
+    laws.extend([flow.mixing_length.info(), flow.dispersion.info()]);
+    laws
+}
