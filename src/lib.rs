@@ -1,27 +1,24 @@
 //! Sediment transport from several models of the same flow, with what each one costs and how far it can be trusted.
 //!
 //! ```text
-//!  cases/*.toml ─► case ─► problem ─► closures ─► continuum ─► result ─► output, plot
-//!    (text)      (spans)  (SI, checked)  (laws)                      ─► study, advise, validate: call it many times
+//!  cases/*.toml ─► case ─► model ─► models/<one> ─► result ─► output, plot, compare
+//!    (text)      (places) (trait,   (SI, laws,                ─► study, advise, validate: call it many times
+//!                         registry)  solvers)
 //! ```
 //!
-//! The drawing shows the data. Imports go only upward in this list, and a test holds every `use crate::` against it:
+//! The drawing shows the data. A test holds every `crate::` path against the list of who may name whom (`docs/design.md`).
 //!
-//! | rooms | what they know |
+//! | modules | what they know |
 //! |---|---|
 //! | [`units`], [`numerics`], [`runtime`] | quantities as text; methods that know no physics; cost and interruption |
 //! | [`closures`], [`result`] | laws; profiles, series, summaries |
-//! | [`case`] | case files: text, spans, schema, diagnostics. The only room that knows TOML |
-//! | [`problem`] | checked, immutable values in SI |
-//! | [`column`] | the fluid of one dimension: its momentum among whatever grains |
-//! | [`continuum`], [`discrete`], [`section`] | models: columns, grains one by one, cross-sections |
-//! | `run` | [`run()`]: the one entry point |
-//! | [`plot`] | figures and pages |
-//! | [`compare`] | several runs and measured profiles side by side |
-//! | [`output`] | the folder of a run, of a comparison, of a study |
+//! | [`case`] | case files: text, places in it, schema, diagnostics. The only module that knows TOML, and no model |
+//! | [`column`], [`dem`] | the fluid of one dimension among whatever grains; grains one by one |
+//! | [`model`] | what a model is: the trait, the registry, the checked problem |
+//! | [`models`] | the models, one folder each |
+//! | [`plot`], [`compare`], [`output`] | figures and pages; runs and measured profiles side by side; folders |
 //! | [`study`] | one case at many points: `converge`, `sweep`, `chart`, `stability`, `calibrate` |
-//! | [`advise`] | the least model that a scene needs |
-//! | [`validate`] | re-runs what the cases claim |
+//! | [`advise`], [`validate`] | the least model that a flow needs; what the cases claim, run again |
 //! | [`cli`] | the command line, one file per verb |
 //!
 //! ```

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{CaseArgs, CliError, answer, say};
+use super::{CaseArgs, CliError, Verb, answer, say};
 use crate::advise;
 use crate::model::Registry;
 use crate::units::significant;
@@ -30,8 +30,12 @@ pub(super) struct Advise {
     pub(super) json: bool,
 }
 
-impl Advise {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Advise {
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
             let message = format!("--tolerance {} is not a share above 0", self.tolerance);
             return Err(CliError::Usage { message, hint: "0.05 is five per cent".into() });
@@ -70,7 +74,9 @@ impl Advise {
         };
         Ok(say(&text)?)
     }
+}
 
+impl Advise {
     /// Writes the case; `None` if none was asked for, or the one that was given serves.
     fn save(&self, registry: &Registry, advice: &advise::Advice) -> Result<Option<String>, CliError> {
         let Some(file) = &self.write else { return Ok(None) };

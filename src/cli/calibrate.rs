@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError, word};
+use super::{CaseArgs, CliError, Verb, word};
 use crate::model::Registry;
 use crate::study::calibrate::{self, Request};
 
@@ -28,8 +28,12 @@ pub(super) struct Calibrate {
     pub(super) study: StudyArgs,
 }
 
-impl Calibrate {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Calibrate {
+    fn json(&self) -> bool {
+        self.study.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let request = Request {
             case: self.case.case.clone(),
             overrides: self.case.overrides.clone(),

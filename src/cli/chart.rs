@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError, word};
+use super::{CaseArgs, CliError, Verb, word};
 use crate::model::Registry;
 use crate::study::chart::{self, Request};
 
@@ -26,8 +26,12 @@ pub(super) struct Chart {
     pub(super) study: StudyArgs,
 }
 
-impl Chart {
-    pub(super) fn execute(mut self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Chart {
+    fn json(&self) -> bool {
+        self.study.json
+    }
+
+    fn execute(mut self, registry: &Registry) -> Result<(), CliError> {
         // Points side by side would share the processor and spoil each other's times.
         self.study.threads.get_or_insert(1);
         let request = Request {

@@ -3,7 +3,7 @@
 use clap::Args;
 use serde_json::json;
 
-use super::{CaseArgs, CliError, answer, say};
+use super::{CaseArgs, CliError, Verb, answer, say};
 use crate::model::Registry;
 
 /// Say whether a case is valid, without running it.
@@ -16,8 +16,12 @@ pub(super) struct Check {
     pub(super) json: bool,
 }
 
-impl Check {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Check {
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let (case, problem) = self.case.load(registry)?;
         if self.json {
             return Ok(answer(&json!({ "status": "valid", "case": case.name, "model": problem.model_name() }))?);

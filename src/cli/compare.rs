@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::progress::Progress;
-use super::{CliError, answer, say, word};
+use super::{CliError, Verb, answer, say, word};
 use crate::case::Case;
 use crate::compare::{Align, CompareError, Comparison, NormRow, Request, Subject, compare, data, percent};
 use crate::model::Registry;
@@ -66,8 +66,12 @@ enum Loaded {
     Ready(Subject),
 }
 
-impl Compare {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Compare {
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let start = Instant::now();
         let given = self.subjects.len() + self.data.len();
         if given < 2 {
@@ -108,7 +112,9 @@ impl Compare {
         }
         Ok(say(&self.closing(&comparison, &cost, &out, !figures.is_empty()))?)
     }
+}
 
+impl Compare {
     fn request(&self) -> Request {
         let align = match self.align {
             Datum::Bottom => Align::Bottom,

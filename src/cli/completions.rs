@@ -3,7 +3,7 @@
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
-use super::{Cli, CliError, say};
+use super::{Cli, CliError, Verb, say};
 use crate::model::Registry;
 
 /// Print a completion script for a shell.
@@ -14,8 +14,8 @@ pub(super) struct Completions {
     shell: Shell,
 }
 
-impl Completions {
-    pub(super) fn execute(self, _: &Registry) -> Result<(), CliError> {
+impl Verb for Completions {
+    fn execute(self, _: &Registry) -> Result<(), CliError> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "bedload", &mut script);
         Ok(say(&String::from_utf8_lossy(&script))?)

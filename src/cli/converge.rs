@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError};
+use super::{CaseArgs, CliError, Verb};
 use crate::model::Registry;
 use crate::study::converge::{self, Request};
 
@@ -43,8 +43,12 @@ enum Reference {
     Finest,
 }
 
-impl Converge {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Converge {
+    fn json(&self) -> bool {
+        self.study.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let over = match self.over {
             Over::Regularisation => converge::Over::Regularisation,
             Over::Mesh => converge::Over::Mesh,

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{CaseArgs, CliError, say};
+use super::{CaseArgs, CliError, Verb, say};
 use crate::model::Registry;
 
 /// Show the equations that a case solves, with its numbers, and the laws in them.
@@ -12,8 +12,8 @@ pub(super) struct Explain {
     case: CaseArgs,
 }
 
-impl Explain {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Explain {
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let (_, problem) = self.case.load(registry)?;
         let mut text = format!(
             "{}\n{} ({})\n\n{}",

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::{CliError, answer, say};
+use super::{CliError, Verb, answer, say};
 use crate::case::{Case, schema, shipped};
 use crate::closures::{CATALOGUE, Standing};
 use crate::model::Registry;
@@ -26,8 +26,12 @@ enum What {
     Closures,
 }
 
-impl List {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for List {
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let wanted = |what| self.what.is_none_or(|w| w == what);
         let mut sections: Vec<(&str, Vec<(String, String)>)> = Vec::new();
         if wanted(What::Models) {

@@ -42,11 +42,41 @@ use crate::validate::ValidateError;
     Exit codes: 0 done; 1 disk full or a bug; 2 wrong input, nothing was run; 3 the method failed; 4 stopped by Ctrl-C.")]
 pub struct Cli {
     #[command(subcommand)]
-    verb: Verb,
+    verb: Verbs,
 }
 
-#[derive(Debug, Subcommand)]
-enum Verb {
+/// A verb of the command line.
+trait Verb {
+    /// Whether its answer is one JSON object, also where it fails.
+    fn json(&self) -> bool {
+        false
+    }
+
+    /// Does it.
+    fn execute(self, registry: &Registry) -> Result<(), CliError>;
+}
+
+/// The verbs: a line each, its file and its arguments.
+macro_rules! verbs {
+    ($($(#[$doc:meta])* $name:ident($file:ident::$arguments:ident),)*) => {
+        #[derive(Debug, Subcommand)]
+        enum Verbs {
+            $($(#[$doc])* $name($file::$arguments),)*
+        }
+
+        impl Verb for Verbs {
+            fn json(&self) -> bool {
+                match self { $(Self::$name(verb) => verb.json(),)* }
+            }
+
+            fn execute(self, registry: &Registry) -> Result<(), CliError> {
+                match self { $(Self::$name(verb) => verb.execute(registry),)* }
+            }
+        }
+    };
+}
+
+verbs! {
     /// Solve a case and write its folder: numbers, tables, report
     Run(run::Run),
     /// Say whether a case is valid, without running it
@@ -198,39 +228,8 @@ pub fn execute(registry: &Registry) -> ExitCode {
             };
         }
     };
-    let json = match &cli.verb {
-        Verb::Run(verb) => verb.json,
-        Verb::Check(verb) => verb.json,
-        Verb::List(verb) => verb.json,
-        Verb::Report(verb) => verb.json,
-        Verb::Compare(verb) => verb.json,
-        Verb::Converge(verb) => verb.study.json,
-        Verb::Sweep(verb) => verb.study.json,
-        Verb::Chart(verb) => verb.study.json,
-        Verb::Stability(verb) => verb.study.json,
-        Verb::Calibrate(verb) => verb.study.json,
-        Verb::Advise(verb) => verb.json,
-        Verb::Validate(verb) => verb.json,
-        Verb::Explain(_) | Verb::New(_) | Verb::Schema(_) | Verb::Completions(_) => false,
-    };
-    let result = match cli.verb {
-        Verb::Run(verb) => verb.execute(registry),
-        Verb::Check(verb) => verb.execute(registry),
-        Verb::Explain(verb) => verb.execute(registry),
-        Verb::New(verb) => verb.execute(registry),
-        Verb::List(verb) => verb.execute(registry),
-        Verb::Report(verb) => verb.execute(registry),
-        Verb::Compare(verb) => verb.execute(registry),
-        Verb::Converge(verb) => verb.execute(registry),
-        Verb::Sweep(verb) => verb.execute(registry),
-        Verb::Chart(verb) => verb.execute(registry),
-        Verb::Stability(verb) => verb.execute(registry),
-        Verb::Calibrate(verb) => verb.execute(registry),
-        Verb::Advise(verb) => verb.execute(registry),
-        Verb::Validate(verb) => verb.execute(registry),
-        Verb::Schema(verb) => verb.execute(registry),
-        Verb::Completions(verb) => verb.execute(registry),
-    };
+    let json = cli.verb.json();
+    let result = cli.verb.execute(registry);
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => error.report(json),

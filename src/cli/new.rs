@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use super::{CliError, say};
+use super::{CliError, Verb, say};
 use crate::case::{nearest, shipped};
 use crate::model::Registry;
 
@@ -24,8 +24,8 @@ pub(super) struct New {
     force: bool,
 }
 
-impl New {
-    pub(super) fn execute(self, _: &Registry) -> Result<(), CliError> {
+impl Verb for New {
+    fn execute(self, _: &Registry) -> Result<(), CliError> {
         let Some(content) = shipped::find(&self.from) else {
             let hint = nearest(&self.from, shipped::names())
                 .map_or_else(|| "`bedload list cases` shows them".into(), |n| format!("did you mean \"{n}\"?"));

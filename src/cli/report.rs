@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{CliError, answer, say};
+use super::{CliError, Verb, answer, say};
 use crate::model::Registry;
 use crate::output::redraw;
 
@@ -23,8 +23,12 @@ pub(super) struct Report {
     pub(super) json: bool,
 }
 
-impl Report {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Report {
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let written = redraw(registry, &self.run, self.png)?;
         let files: Vec<String> = std::iter::once(self.run.join("report.html"))
             .chain(written.figures)

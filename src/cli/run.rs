@@ -10,7 +10,7 @@ use clap::Args;
 use serde_json::Value;
 
 use super::progress::Progress;
-use super::{CaseArgs, CliError, answer, say};
+use super::{CaseArgs, CliError, Verb, answer, say};
 use crate::model::Registry;
 use crate::model::{Context, Problem};
 use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
@@ -49,8 +49,12 @@ pub(super) struct Run {
     checkpoint: f64,
 }
 
-impl Run {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Run {
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let start = Instant::now();
         let (case, problem) = self.case.load(registry)?;
         // Listening begins before there is anything that Ctrl-C could leave half done.

@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{CliError, answer, say};
+use super::{CliError, Verb, answer, say};
 use crate::case::{reference, schema};
 use crate::model::Registry;
 
@@ -14,8 +14,8 @@ pub(super) struct Schema {
     reference: bool,
 }
 
-impl Schema {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Schema {
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         if self.reference {
             Ok(say(&reference(registry.kinds()))?)
         } else {

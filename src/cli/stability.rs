@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError, word};
+use super::{CaseArgs, CliError, Verb, word};
 use crate::model::Registry;
 use crate::study::stability::{self, Request};
 
@@ -23,8 +23,12 @@ pub(super) struct Stability {
     pub(super) study: StudyArgs,
 }
 
-impl Stability {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Stability {
+    fn json(&self) -> bool {
+        self.study.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         if let Some(tolerance) = self.tolerance.filter(|tolerance| !(*tolerance > 0.0 && tolerance.is_finite())) {
             let message = format!("--tolerance {tolerance} is not a share above 0");
             return Err(CliError::Usage { message, hint: "0.01 is one per cent".into() });

@@ -3,7 +3,7 @@
 use clap::Args;
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError, word};
+use super::{CaseArgs, CliError, Verb, word};
 use crate::model::Registry;
 use crate::study::sweep;
 
@@ -19,8 +19,12 @@ pub(super) struct Sweep {
     pub(super) study: StudyArgs,
 }
 
-impl Sweep {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Sweep {
+    fn json(&self) -> bool {
+        self.study.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let (plan, judge) = sweep::plan(&self.case.case, &self.case.overrides, &self.over)?;
         let options: Vec<String> = self.over.iter().map(|over| format!("--over {}", word(over))).collect();
         self.study.conduct(registry, &self.case, &plan, judge, &options)

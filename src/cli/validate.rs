@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::progress::Progress;
-use super::{CliError, answer, say};
+use super::{CliError, Verb, answer, say};
 use crate::case::checks::Tier;
 use crate::model::Registry;
 use crate::plot;
@@ -38,8 +38,12 @@ pub(super) struct Validate {
     pub(super) json: bool,
 }
 
-impl Validate {
-    pub(super) fn execute(self, registry: &Registry) -> Result<(), CliError> {
+impl Verb for Validate {
+    fn json(&self) -> bool {
+        self.json
+    }
+
+    fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let tier = if self.full && !self.quick { Tier::Full } else { Tier::Quick };
         let rows = validate(registry, &self.cases, tier, &mut Progress::new(self.json))?;
         let judged =

@@ -11,6 +11,7 @@ mod context;
 mod offer;
 mod problem;
 mod registry;
+mod study;
 
 use std::any::Any;
 use std::fmt::Debug;
@@ -23,6 +24,7 @@ pub use context::Context;
 pub use offer::{BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, PACKED, Term, TermTest, TurbulentScene};
 pub use problem::{Checked, Problem};
 pub use registry::{Entry, Registry, checked, read};
+pub use study::{ClosedForm, Focus, Law, Meshes, Number, ONE_KIND, Rule, Rung, Sizes, Smoothed, StudyPlan, number};
 
 /// Faults found while values are compared with each other, by path in the case.
 pub type Faults = Vec<(&'static str, Fault)>;
@@ -81,6 +83,16 @@ pub trait Solve: Any + Debug + Send + Sync {
     /// [`Failure`] where the flow is known only from its solution and there is none.
     fn flow(&self) -> Result<Option<Flow>, Failure> {
         Ok(None)
+    }
+
+    /// What studies may vary: what it converges over, and the ladder of its settings.
+    fn study(&self) -> StudyPlan {
+        StudyPlan::default()
+    }
+
+    /// Its solution under the exact yield in closed form, if it has one and that can be evaluated.
+    fn closed_form(&self) -> Option<Box<dyn ClosedForm>> {
+        None
     }
 
     /// What in the model that flow may not need.

@@ -11,7 +11,7 @@ pub mod sheet_flow;
 #[cfg(test)]
 mod tests;
 pub mod two_fluid;
-mod yield_size;
+mod yielding;
 
 use crate::dem::GrainBed;
 use crate::model::{Entry, OnMesh, Registry};

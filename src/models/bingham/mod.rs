@@ -1,14 +1,15 @@
 //! A Bingham fluid between two planes, solved numerically, regularised or with the exact yield.
 
 mod solve;
+mod study;
 
 pub use solve::{Solution, equations, run};
 
 use crate::case::tables::{BinghamFluid, BinghamKindModel, PlaneFlow, RegularisationTable, YieldGrid};
 use crate::closures::regularisation::Regularisation;
-use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::model::{ClosedForm, Context, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
 use crate::models::exact::bingham::{BinghamPlane, plane};
-use crate::models::yield_size::size;
+use crate::models::yielding::size;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 
@@ -62,6 +63,14 @@ impl Solve for OnMesh<RegularisedPlane> {
 
     fn describe(&self) -> Description {
         Description { form: None, equations: equations(&self.problem), laws: Vec::new() }
+    }
+
+    fn study(&self) -> StudyPlan {
+        study::plan(&self.problem.plane, self.cells)
+    }
+
+    fn closed_form(&self) -> Option<Box<dyn ClosedForm>> {
+        study::closed_form(&self.problem.plane)
     }
 
     fn cells(&self) -> usize {

@@ -16,6 +16,7 @@ mod problem;
 mod record;
 mod run;
 mod scene;
+mod study;
 #[cfg(test)]
 mod tests;
 

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::case::{CoupledDiscrete, CoupledTables, FluidScheme};
-use super::{accepts, advice, equations, run};
+use super::{accepts, advice, equations, run, study};
 use crate::case::Fault;
 use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::{Contact, linear_spring};
@@ -13,7 +13,7 @@ use crate::closures::mixing_length::MixingLength;
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::side_wall::{self, SideWall};
 use crate::dem::{Bottom, GrainBed};
-use crate::model::{Context, Description, Faults, Flow, Model, ModelInfo, Offer, Solve, Term};
+use crate::model::{Context, Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
 use crate::result::{CheckpointError, Failure, Outcome};
 
 /// Grains in a fluid that flows over them. All values SI.
@@ -187,6 +187,10 @@ impl Solve for Coupled {
             self.fluctuation.info(),
         ];
         Description { form: None, equations: equations(self), laws }
+    }
+
+    fn study(&self) -> StudyPlan {
+        study::plan(self)
     }
 
     fn cells(&self) -> usize {

@@ -12,6 +12,7 @@ mod problem;
 pub mod single;
 mod slipping;
 mod spreading;
+mod study;
 #[cfg(test)]
 mod tests;
 pub mod two_fluid;

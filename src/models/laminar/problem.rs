@@ -1,14 +1,15 @@
 //! The laminar bed that is solved numerically: its case and its problem.
 
-use super::{equations, run};
+use super::{equations, run, study};
 use crate::case::tables::{Bed, BedClosures, Fluid, Grains, LaminarFlow, LaminarModel, RegularisationTable, YieldGrid};
 use crate::closures::friction;
 use crate::closures::regularisation::Regularisation;
 use crate::model::{
-    Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, Term, TermTest,
+    ClosedForm, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, Term,
+    TermTest,
 };
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
-use crate::models::yield_size::size;
+use crate::models::yielding::size;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 use crate::units::significant;
@@ -88,6 +89,14 @@ impl Solve for OnMesh<RegularisedBed> {
     fn describe(&self) -> Description {
         let bed = &self.problem.bed;
         Description { form: Some(bed.form_name()), equations: equations(&self.problem), laws: bed.laws() }
+    }
+
+    fn study(&self) -> StudyPlan {
+        study::plan(&self.problem.bed, self.cells)
+    }
+
+    fn closed_form(&self) -> Option<Box<dyn ClosedForm>> {
+        study::closed_form(&self.problem)
     }
 
     fn cells(&self) -> usize {

@@ -23,6 +23,7 @@ mod outcome;
 mod problem;
 pub mod programme;
 pub mod solve;
+mod study;
 
 pub use case::Method;
 pub use cavity_outcome::{equations as cavity_equations, run as run_cavity};

@@ -1,14 +1,14 @@
 //! A flow along a duct, in its cross-section.
 
 use super::case::{CavityTables, DuctBedTables, DuctTables, Method, SectionGrid, SectionSolver, Shape};
-use super::{cavity_equations, equations, run, run_cavity};
+use super::{cavity_equations, equations, run, run_cavity, study};
 use crate::case::Fault;
 use crate::case::tables::LaminarFlow;
 use crate::closures::friction;
 use crate::closures::regularisation::{Regularisation, Smoothing};
-use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
-use crate::models::yield_size::size;
+use crate::models::yielding::size;
 use crate::result::{Failure, Outcome};
 
 /// Outline of a section whose height is 1.
@@ -254,6 +254,10 @@ impl Solve for Duct {
         self.0.describe()
     }
 
+    fn study(&self) -> StudyPlan {
+        self.0.study()
+    }
+
     fn cells(&self) -> usize {
         self.0.cells
     }
@@ -266,6 +270,10 @@ impl Solve for DuctBed {
 
     fn describe(&self) -> Description {
         self.0.describe()
+    }
+
+    fn study(&self) -> StudyPlan {
+        self.0.study()
     }
 
     fn cells(&self) -> usize {
@@ -284,6 +292,10 @@ impl Solve for OnMesh<DuctFlow> {
             Contents::Bed(bed) => Description { form: Some(bed.form_name()), equations, laws: bed.laws() },
             Contents::Bingham { .. } => Description { equations, ..Description::default() },
         }
+    }
+
+    fn study(&self) -> StudyPlan {
+        study::plan(study::duct(&self.problem), self.problem.along.is_some())
     }
 
     fn cells(&self) -> usize {
@@ -320,6 +332,10 @@ impl Solve for OnMesh<CavityFlow> {
 
     fn describe(&self) -> Description {
         Description { equations: cavity_equations(&self.problem), ..Description::default() }
+    }
+
+    fn study(&self) -> StudyPlan {
+        study::plan(study::cavity(&self.problem), false)
     }
 
     fn cells(&self) -> usize {

@@ -3,6 +3,7 @@
 pub mod case;
 mod flow;
 mod problem;
+mod study;
 
 pub use problem::ShearCell;
 

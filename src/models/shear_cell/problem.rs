@@ -1,11 +1,11 @@
 //! Problems of grains between two walls that move.
 
 use super::case::ShearCellTables;
-use super::{equations, run};
+use super::{equations, run, study};
 use crate::case::Fault;
 use crate::closures::Info;
 use crate::closures::kinetic::{FRICTIONAL_COLLISIONAL, Granular, Kinetic, garzo_dufty};
-use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
 use crate::result::{Failure, Outcome};
 
 /// Grains between two walls, without fluid or gravity. All values SI.
@@ -79,6 +79,10 @@ impl Solve for OnMesh<ShearCell> {
 
     fn describe(&self) -> Description {
         Description { form: None, equations: equations(&self.problem), laws: laws(&self.problem) }
+    }
+
+    fn study(&self) -> StudyPlan {
+        study::plan(&self.problem)
     }
 
     fn cells(&self) -> usize {

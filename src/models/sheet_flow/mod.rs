@@ -20,6 +20,7 @@ mod problem;
 mod profile;
 pub mod solve;
 pub mod start;
+mod study;
 pub mod suspension;
 #[cfg(test)]
 mod tests;

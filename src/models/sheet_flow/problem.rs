@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::case::{BedReading, SheetFlowTables, SheetMethod, SheetSmoothing};
-use super::{equations, run};
+use super::{equations, run, study};
 use crate::case::Fault;
 use crate::case::tables::SlopeDefinition;
 use crate::closures::Info;
@@ -16,8 +16,8 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::rearrangement::Rearrangement;
 use crate::closures::suspension::Suspension;
 use crate::model::{
-    COLLISIONS, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, Term, TermTest,
-    TurbulentScene,
+    COLLISIONS, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, Term,
+    TermTest, TurbulentScene,
 };
 use crate::result::quantity as q;
 use crate::result::{Failure, Outcome};
@@ -257,6 +257,10 @@ impl Solve for OnMesh<SheetFlow> {
 
     fn describe(&self) -> Description {
         Description { form: None, equations: equations(&self.problem), laws: laws(&self.problem) }
+    }
+
+    fn study(&self) -> StudyPlan {
+        study::plan(&self.problem, self.cells)
     }
 
     fn cells(&self) -> usize {

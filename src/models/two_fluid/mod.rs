@@ -20,6 +20,7 @@ pub mod stability;
 pub mod start;
 pub mod state;
 pub mod steady;
+mod study;
 pub mod system;
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::case::{FluidStress, State, TwoFluidTables};
-use super::{equations, run};
+use super::{equations, run, study};
 use crate::case::Fault;
 use crate::case::tables::SlopeDefinition;
 use crate::closures::dispersion::Dispersion;
@@ -12,7 +12,8 @@ use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
 use crate::closures::mixing_length::{self, BelowPacked, MixingLength};
 use crate::closures::{Info, drag};
 use crate::model::{
-    BULK_FRICTION, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, TurbulentScene,
+    BULK_FRICTION, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan,
+    TurbulentScene,
 };
 use crate::result::{Failure, Outcome};
 use crate::units::significant;
@@ -226,6 +227,10 @@ impl Solve for OnMesh<TwoFluid> {
 
     fn describe(&self) -> Description {
         Description { form: None, equations: equations(&self.problem), laws: laws(&self.problem) }
+    }
+
+    fn study(&self) -> StudyPlan {
+        study::plan(&self.problem)
     }
 
     fn cells(&self) -> usize {

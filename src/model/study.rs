@@ -1,0 +1,213 @@
+//! What a model says of its own studies: the velocity and the numbers that are judged, how its yield is smoothed, over which
+//! meshes it converges, the settings that answer one case from cheap to dear. Plain data of one problem: whoever reads it knows no
+//! model.
+//!
+//! A change is `table.key=value` as after `--set`, good for any case of the model.
+
+use crate::result::quantity::Quantity;
+use crate::result::{Profile, Results};
+
+/// What a problem says of its studies.
+#[derive(Clone, Debug, Default)]
+pub struct StudyPlan {
+    /// what is measured, and what is refined; `None` for a closed form, and for grains
+    pub focus: Option<Focus>,
+    /// the settings that answer the case, from cheap and coarse to dear and fine; none: it is solved as it stands
+    pub rungs: Vec<Rung>,
+    /// what is much finer than all rungs: in words, and as changes. `None` where refining has no end that can be paid for
+    pub finest: Option<(String, Vec<String>)>,
+}
+
+/// A setting of a ladder.
+#[derive(Clone, Debug)]
+pub struct Rung {
+    /// the curve that it lies on
+    pub series: &'static str,
+    /// the setting in words
+    pub setting: String,
+    /// what is changed in the case
+    pub changes: Vec<String>,
+}
+
+impl Rung {
+    /// A mesh of so many cells, with more changes.
+    #[must_use]
+    pub fn cells(series: &'static str, cells: usize, more: &[String]) -> Self {
+        let changes = [&[format!("grid.cells={cells}")], more].concat();
+        Self { series, setting: format!("{cells} cells"), changes }
+    }
+}
+
+/// The solution of a problem under the exact yield, to round-off.
+pub trait ClosedForm: Send {
+    /// Its numbers [SI].
+    fn results(&self) -> &Results;
+    /// The velocity that is measured, at the levels of `run`.
+    fn at(&self, run: &Profile) -> Option<Profile>;
+}
+
+/// What a study of a model measures and what it varies.
+#[derive(Clone, Debug)]
+pub struct Focus {
+    /// the velocity whose norms are taken
+    pub velocity: &'static Quantity,
+    /// unit of the root mean squares [m/s]
+    pub velocity_unit: f64,
+    /// numbers that a user would take from a run, the first of them first
+    pub numbers: &'static [Number],
+    /// whether the velocity of the grains at the bed level is one of the measures
+    pub bed: bool,
+    /// whether the root mean square of Chauchat & Medale (2010), divided by N outside the root, stands beside the true one
+    pub paper_rms: bool,
+    /// how its yield is smoothed
+    pub sizes: Option<Sizes>,
+    /// meshes over which it converges
+    pub meshes: Option<Meshes>,
+}
+
+/// A number besides the velocity.
+#[derive(Clone, Copy, Debug)]
+pub struct Number {
+    /// what it is
+    pub quantity: &'static Quantity,
+    /// its name in columns: `error_transport_rate`
+    pub short: &'static str,
+    /// its error against the exact yield as a run states it, where the exact yield on as many cells has another mesh
+    pub stated: Option<&'static Quantity>,
+}
+
+/// Sizes of a regularisation over which a model converges.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
+    /// the key that is varied
+    pub key: &'static str,
+    /// its unit
+    pub unit: &'static str,
+    /// the size as a formula, in that unit
+    pub formula: &'static str,
+    /// symbols in the formula that need a word, after a space; else empty
+    pub symbols: &'static str,
+    /// what the unit is worth [1/s]
+    pub shear_unit: f64,
+    /// changes that give the exact yield; none where the model has no such thing
+    pub exact: &'static [&'static str],
+    /// changes of all laws
+    pub changes: &'static [&'static str],
+    /// laws of the smoothing, that of a published rule first
+    pub laws: &'static [Smoothed],
+    /// decades of the size, from and to, as powers of 1/10
+    pub decades: (i32, i32),
+    /// sizes at which words give the error
+    pub shown: &'static [f64],
+    /// slopes are told from this size down
+    pub slopes_from: f64,
+    /// whether the creep of what is at rest under the exact yield is one of the measures
+    pub creep: bool,
+    /// a published rule for the size
+    pub rule: Option<Rule>,
+}
+
+/// A law of the smoothing.
+#[derive(Clone, Copy, Debug)]
+pub struct Smoothed {
+    /// its name
+    pub name: &'static str,
+    /// changes that set it, but for the size
+    pub changes: &'static [&'static str],
+    /// how the error of the velocity goes with the size, where that is known
+    pub falls: Option<Law>,
+}
+
+/// The rule of Chauchat & Medale (2010), section 3.2: lambda = min(1e-4, 1e-4/Bn).
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// yield stress times height over viscosity [m/s], which over a velocity is the Bingham number
+    pub yield_velocity: f64,
+    /// the Bingham number in words
+    pub bingham: &'static str,
+}
+
+/// Meshes over which a model converges.
+#[derive(Clone, Copy, Debug)]
+pub struct Meshes {
+    /// cells, from the coarsest on
+    pub cells: &'static [usize],
+    /// cells of the mesh that the others are measured against where there is no closed form
+    pub reference: usize,
+    /// changes on all meshes
+    pub changes: &'static [&'static str],
+    /// kinds of mesh, each with its changes; the reference is of the first kind
+    pub kinds: &'static [(&'static str, &'static [&'static str])],
+    /// what else a reader has to know: label and text
+    pub remarks: &'static [(&'static str, &'static str)],
+}
+
+/// A number whose error is measured.
+#[must_use]
+pub const fn number(quantity: &'static Quantity, short: &'static str) -> Number {
+    Number { quantity, short, stated: None }
+}
+
+/// Meshes of one kind.
+pub const ONE_KIND: &[(&str, &[&str])] = &[("mesh", &[])];
+
+fn owned(changes: &[&str]) -> Vec<String> {
+    changes.iter().map(|&change| change.to_owned()).collect()
+}
+
+impl Sizes {
+    /// Changes that set a law with a size.
+    #[must_use]
+    pub fn set(&self, law: &Smoothed, size: &str) -> Vec<String> {
+        [owned(self.changes), owned(law.changes), vec![format!("{}={size}", self.key)]].concat()
+    }
+
+    /// Changes that give the exact yield.
+    #[must_use]
+    pub fn exactly(&self) -> Vec<String> {
+        owned(self.exact)
+    }
+
+    /// A size with its unit, for readers.
+    #[must_use]
+    pub fn text(&self, size: &str) -> String {
+        if self.unit == "1" { size.to_owned() } else { format!("{size} {}", self.unit) }
+    }
+}
+
+impl Meshes {
+    /// Changes that make a mesh of a kind.
+    #[must_use]
+    pub fn set(&self, cells: usize, kind: &[&str]) -> Vec<String> {
+        [vec![format!("grid.cells={cells}")], owned(kind), owned(self.changes)].concat()
+    }
+}
+
+/// How the error of a regularised yield stress goes with its size lambda, s being the shear rate of the flow.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law {
+    /// C (lambda/s) ln(s/lambda): the ratio R of the law falls short of 1 like lambda/gamma, which is felt at every depth
+    Logarithmic,
+    /// C lambda/s: it falls short of 1 faster than that
+    Linear,
+}
+
+impl Law {
+    /// The law with C = 1, for lambda below s.
+    #[must_use]
+    pub fn at(self, lambda: f64, s: f64) -> f64 {
+        match self {
+            Self::Logarithmic => lambda / s * (s / lambda).ln(),
+            Self::Linear => lambda / s,
+        }
+    }
+
+    /// As a formula.
+    #[must_use]
+    pub fn formula(self) -> &'static str {
+        match self {
+            Self::Logarithmic => "(λ/s) ln(s/λ)",
+            Self::Linear => "λ/s",
+        }
+    }
+}
