@@ -7,7 +7,6 @@
 //! Everything above this module, the studies and the command line, knows these traits and never one model. A model is written
 //! with its own types ([`Model`]) and loses them once a run ([`Solve`] is object-safe).
 
-mod context;
 mod offer;
 mod problem;
 mod registry;
@@ -18,9 +17,8 @@ use std::fmt::Debug;
 
 use crate::case::{Fault, Tables};
 use crate::closures::Info;
-use crate::result::{CheckpointError, Failure, Outcome};
+use crate::result::{CheckpointError, Context, Failure, Outcome};
 
-pub use context::Context;
 pub use offer::{BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, PACKED, Term, TermTest, TurbulentScene};
 pub use problem::{Checked, Problem};
 pub use registry::{Entry, Registry, checked, read};

@@ -3,10 +3,10 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::{Context, Description, Solve};
+use super::{Description, Solve};
 use crate::case::checks::Class;
 use crate::case::{Case, Fault};
-use crate::result::{Failure, Outcome, quantity};
+use crate::result::{Context, Failure, Outcome, quantity};
 
 /// Relative residual of a balance from which on a result has lost its digits: it is round-off otherwise.
 const LARGEST_IMBALANCE: f64 = 1e-3;

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::{Balance, Profile, Results, Series, Status, TableError, Validity};
+use super::{Balance, Field, Motion, Profile, Results, Series, SideView, Status, TableError, Validity};
 
 /// Everything that a run has to say, before it is written.
 #[derive(Clone, Debug)]
@@ -21,6 +21,12 @@ pub struct Outcome {
     pub validity: Vec<Validity>,
     /// every small number that the run used, by name
     pub regularisation: Map<String, Value>,
+    /// fields over a section
+    pub field: Option<Field>,
+    /// grains at the end, seen from the side
+    pub grains: Option<SideView>,
+    /// grains as they flowed, seen from the side
+    pub animation: Option<Motion>,
 }
 
 /// Why a method failed, with the numbers that say so.
@@ -323,6 +329,9 @@ impl Outcome {
             balances: Vec::new(),
             validity: Vec::new(),
             regularisation: Map::new(),
+            field: None,
+            grains: None,
+            animation: None,
         }
     }
 

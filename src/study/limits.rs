@@ -7,7 +7,8 @@ use super::stability::Request;
 use super::{Row, StudyError};
 use crate::case::CaseError;
 pub use crate::case::checks::Class;
-use crate::model::{Context, Registry};
+use crate::model::Registry;
+use crate::result::Context;
 use crate::result::Results;
 use crate::result::quantity::{self as q, Quantity};
 

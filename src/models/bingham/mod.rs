@@ -7,9 +7,10 @@ pub use solve::{Solution, equations, run};
 
 use crate::case::tables::{BinghamFluid, BinghamKindModel, PlaneFlow, RegularisationTable, YieldGrid};
 use crate::closures::regularisation::Regularisation;
-use crate::model::{ClosedForm, Context, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
+use crate::model::{ClosedForm, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
 use crate::models::exact::bingham::{BinghamPlane, plane};
 use crate::models::yielding::size;
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 

@@ -24,4 +24,4 @@ pub use case::FluidScheme;
 pub use exchange::Exchange;
 pub use felt::{Dragged, Felt};
 pub use problem::{Coupled, Surface};
-pub use run::{accepts, equations, run};
+pub use run::{equations, run};

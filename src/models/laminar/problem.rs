@@ -5,11 +5,11 @@ use crate::case::tables::{Bed, BedClosures, Fluid, Grains, LaminarFlow, LaminarM
 use crate::closures::friction;
 use crate::closures::regularisation::Regularisation;
 use crate::model::{
-    ClosedForm, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, Term,
-    TermTest,
+    ClosedForm, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, Term, TermTest,
 };
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
 use crate::models::yielding::size;
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 use crate::units::significant;

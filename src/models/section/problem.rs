@@ -6,9 +6,10 @@ use crate::case::Fault;
 use crate::case::tables::LaminarFlow;
 use crate::closures::friction;
 use crate::closures::regularisation::{Regularisation, Smoothing};
-use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
+use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
 use crate::models::yielding::size;
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 
 /// Outline of a section whose height is 1.

@@ -16,9 +16,10 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::rearrangement::Rearrangement;
 use crate::closures::suspension::Suspension;
 use crate::model::{
-    COLLISIONS, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, Term,
-    TermTest, TurbulentScene,
+    COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, Term, TermTest,
+    TurbulentScene,
 };
+use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Outcome};
 use crate::units::significant;

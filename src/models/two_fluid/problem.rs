@@ -12,9 +12,9 @@ use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
 use crate::closures::mixing_length::{self, BelowPacked, MixingLength};
 use crate::closures::{Info, drag};
 use crate::model::{
-    BULK_FRICTION, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan,
-    TurbulentScene,
+    BULK_FRICTION, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, TurbulentScene,
 };
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::units::significant;
 
