@@ -10,8 +10,8 @@ use std::path::Path;
 
 use serde_json::json;
 
+use super::closed_form::ClosedForm;
 use super::converge::{Judge, error_text};
-use super::mesh::ClosedForm;
 use super::{Judgement, Plan, Point, Row, StudyError, ladder};
 use crate::output::read_run;
 use crate::plot::{Axis, Curve, Dash, Figure, Level, Marker, Panel};

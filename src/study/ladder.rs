@@ -4,15 +4,13 @@
 //! out: the ladder of a model is longer than any one of its cases allows.
 
 use super::Point;
-use super::regularisation::{exact_yield, smoothed};
+use super::focus::{Focus, Sizes};
 use crate::problem::{Model, Problem};
 
 /// What is varied, as a column of the table.
 pub(super) const KEY: &str = "setting";
 /// Sizes of the regularisation.
 const LAMBDAS: [&str; 4] = ["1e-2", "1e-4", "1e-6", "1e-8"];
-/// Laws of the regularisation, with what the figure calls them.
-const LAWS: [&str; 3] = ["simple", "bercovier-engelman", "papanastasiou"];
 
 /// A rung: series, setting in words, changes of the case.
 type Rung = (&'static str, String, Vec<String>);
@@ -21,13 +19,15 @@ type Rung = (&'static str, String, Vec<String>);
 /// paid for: the last rung is the finest.
 pub(super) fn finest(problem: &Problem) -> Option<(String, Vec<String>)> {
     let cells = problem.cells;
+    let sizes = Focus::of(problem).and_then(|focus| focus.sizes);
+    let exact = || sizes.map(|sizes| sizes.exactly()).unwrap_or_default();
     let fine = |cells: usize, more: Vec<String>| {
         Some((format!("exact yield, {cells} cells"), [vec![format!("grid.cells={cells}")], more].concat()))
     };
     match problem.model {
-        Model::Laminar(_) | Model::Bingham(_) => fine(4 * cells.max(400), exact_yield()),
-        Model::SheetFlow(_) => fine(8 * cells.max(300), newton()),
-        Model::Duct(_) | Model::Cavity(_) => fine(128, [newton(), vec!["grid.along=".into()]].concat()),
+        Model::Laminar(_) | Model::Bingham(_) => fine(4 * cells.max(400), exact()),
+        Model::SheetFlow(_) => fine(8 * cells.max(300), exact()),
+        Model::Duct(_) | Model::Cavity(_) => fine(128, [newton(), exact(), vec!["grid.along=".into()]].concat()),
         Model::TwoFluid(_) => Some(("960 cells".into(), vec!["grid.cells=960".into()])),
         _ => None,
     }
@@ -35,13 +35,14 @@ pub(super) fn finest(problem: &Problem) -> Option<(String, Vec<String>)> {
 
 /// All rungs that `problem` may have; `case` is where they come from.
 pub(super) fn rungs(case: Option<&str>, problem: &Problem) -> Vec<Point> {
-    let rungs = match &problem.model {
-        Model::Laminar(_) | Model::Bingham(_) => plane(),
-        Model::SheetFlow(_) => sheet(),
-        Model::Duct(duct) if duct.along.is_some() => whole_duct(),
-        Model::Duct(_) | Model::Cavity(_) => section(),
-        Model::TwoFluid(_) => two_fluid(),
-        Model::Coupled(flow) => grains(flow.bed.discrete.duration, flow.bed.size, flow.bed.side_walls),
+    let sizes = Focus::of(problem).and_then(|focus| focus.sizes);
+    let rungs = match (&problem.model, &sizes) {
+        (Model::Laminar(_) | Model::Bingham(_), Some(sizes)) => plane(sizes),
+        (Model::SheetFlow(_), Some(sizes)) => sheet(sizes),
+        (Model::Duct(duct), _) if duct.along.is_some() => whole_duct(),
+        (Model::Duct(_) | Model::Cavity(_), Some(sizes)) => section(sizes),
+        (Model::TwoFluid(_), _) => two_fluid(),
+        (Model::Coupled(flow), _) => grains(flow.bed.discrete.duration, flow.bed.size, flow.bed.side_walls),
         _ => vec![(problem.kind, "as it stands".into(), Vec::new())],
     };
     let point = |(series, setting, overrides): Rung| Point {
@@ -54,55 +55,50 @@ pub(super) fn rungs(case: Option<&str>, problem: &Problem) -> Vec<Point> {
 }
 
 fn newton() -> Vec<String> {
-    [vec!["model.method=newton".into()], exact_yield()].concat()
+    vec!["model.method=newton".into()]
 }
 
 fn with_cells(series: &'static str, cells: usize, more: &[String]) -> Rung {
     (series, format!("{cells} cells"), [&[format!("grid.cells={cells}")], more].concat())
 }
 
-/// Each law with each size on some meshes.
-fn regularised(method: &[String], laws: &[&'static str], meshes: &[usize]) -> Vec<Rung> {
+/// Each of the first laws with each size on some meshes.
+fn regularised(sizes: &Sizes, laws: usize, lambdas: &[&str], meshes: &[usize]) -> Vec<Rung> {
     let mut rungs = Vec::new();
-    for &law in laws {
-        for lambda in LAMBDAS {
+    for law in sizes.laws.iter().take(laws) {
+        for lambda in lambdas {
             for &cells in meshes {
-                let (_, setting, changes) = with_cells(law, cells, &[method, &smoothed(law, lambda)].concat());
-                rungs.push((law, format!("λ = {lambda}, {setting}"), changes));
+                let (series, setting, changes) = with_cells(law.name, cells, &sizes.set(law, lambda));
+                rungs.push((series, format!("λ = {}, {setting}", sizes.text(lambda)), changes));
             }
         }
     }
     rungs
 }
 
-fn plane() -> Vec<Rung> {
-    let exact = [12, 24, 48, 96, 192, 384].map(|cells| with_cells("exact yield", cells, &exact_yield()));
-    [exact.to_vec(), regularised(&[], &LAWS, &[24, 96, 384])].concat()
+fn plane(sizes: &Sizes) -> Vec<Rung> {
+    let exact = [12, 24, 48, 96, 192, 384].map(|cells| with_cells("exact yield", cells, &sizes.exactly()));
+    [exact.to_vec(), regularised(sizes, 3, &LAMBDAS, &[24, 96, 384])].concat()
 }
 
-fn sheet() -> Vec<Rung> {
-    let exact = [40, 75, 150, 300, 600, 1200].map(|cells| with_cells("Newton, exact yield", cells, &newton()));
-    let method = |name: &str| vec![format!("model.method={name}")];
-    // Sheet flow has its λ in 1/s only.
-    let sized = |series: &'static str, name: &str, lambdas: &[&str], meshes: &[usize]| -> Vec<Rung> {
-        let one = |lambda: &str, cells: usize| {
-            let law = ["regularisation.law=simple".to_owned(), format!("regularisation.lambda={lambda}")];
-            let (_, setting, changes) = with_cells(series, cells, &[&method(name)[..], &law].concat());
-            (series, format!("λ = {lambda} 1/s, {setting}"), changes)
-        };
-        lambdas.iter().flat_map(|lambda| meshes.iter().map(|&cells| one(lambda, cells)).collect::<Vec<_>>()).collect()
+fn sheet(sizes: &Sizes) -> Vec<Rung> {
+    let exact = [40, 75, 150, 300, 600, 1200];
+    let exact = exact.map(|cells| with_cells("Newton, exact yield", cells, &sizes.exactly()));
+    let smoothed = |series: &'static str, method: &[String], meshes: &[usize]| -> Vec<Rung> {
+        let all = regularised(sizes, 1, &LAMBDAS[..3], meshes).into_iter();
+        all.map(|(_, setting, changes)| (series, setting, [method, &changes].concat())).collect()
     };
-    let newton = sized("Newton, regularised", "newton", &["1e-2", "1e-4", "1e-6"], &[75, 300]);
-    let paper = sized("iteration of the paper", "iteration", &["1e-2", "1e-4", "1e-6"], &[75, 150]);
-    [exact.to_vec(), newton, paper].concat()
+    let paper = ["model.method=iteration".to_owned()];
+    let newton = smoothed("Newton, regularised", &newton(), &[75, 300]);
+    [exact.to_vec(), newton, smoothed("iteration of the paper", &paper, &[75, 150])].concat()
 }
 
-fn section() -> Vec<Rung> {
-    let exact = [8, 12, 24, 48, 96].map(|cells| with_cells("Newton, exact yield", cells, &newton()));
-    let first = ["model.method=first-order".to_owned()];
-    let dual = [12, 24, 48].map(|cells| with_cells("first-order", cells, &[&first[..], &exact_yield()].concat()));
-    let method = ["model.method=newton".to_owned()];
-    [exact.to_vec(), dual.to_vec(), regularised(&method, &LAWS[..2], &[12, 24, 48])].concat()
+fn section(sizes: &Sizes) -> Vec<Rung> {
+    let newton = [newton(), sizes.exactly()].concat();
+    let exact = [8, 12, 24, 48, 96].map(|cells| with_cells("Newton, exact yield", cells, &newton));
+    let first = [vec!["model.method=first-order".to_owned()], sizes.exactly()].concat();
+    let dual = [12, 24, 48].map(|cells| with_cells("first-order", cells, &first));
+    [exact.to_vec(), dual.to_vec(), regularised(sizes, 2, &LAMBDAS, &[12, 24, 48])].concat()
 }
 
 /// The whole duct costs so much that its rungs are few.

@@ -1,7 +1,7 @@
 //! Where a method ends: what came of a point, and the limit between two of which one holds.
 
+use super::closed_form::ClosedForm;
 use super::converge::error_text;
-use super::mesh::ClosedForm;
 use super::range::{Varied, number_and_unit, parse};
 use super::stability::Request;
 use super::{Row, StudyError};

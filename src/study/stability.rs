@@ -9,9 +9,9 @@ use std::collections::BTreeMap;
 use serde_json::json;
 
 use super::chart::time_text;
+use super::closed_form::ClosedForm;
 use super::converge::{Judge, error_text};
 use super::limits::{Class, Found, limits, solved};
-use super::mesh::ClosedForm;
 use super::range::{MOST, Varied, number_and_unit, parse};
 use super::{Judgement, Plan, Point, Row, StudyError};
 use crate::plot::{Axis, Curve, Figure, Marker, Panel, Scale};
