@@ -32,3 +32,4 @@ mod sheet_statements;
 mod studies;
 mod support;
 mod sweep;
+mod uphill;

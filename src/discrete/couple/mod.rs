@@ -5,6 +5,7 @@
 //!                                                     record (samples, blocks) ─► outcome
 //! ```
 
+mod direction;
 mod exchange;
 mod felt;
 mod hold;

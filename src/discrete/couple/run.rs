@@ -122,7 +122,7 @@ fn go_on(mut run: Run<'_>, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
         Ok(status) => status,
         Err(error) => {
             let last = outcome::outcome(&mut run, Status::Failed).ok().map(Box::new);
-            return Err(Failure { error, last });
+            return Err(Failure { error: run.advised(error), last });
         }
     };
     let outcome = outcome::outcome(&mut run, status)?;
@@ -202,6 +202,7 @@ impl<'a> Run<'a> {
             let sample = self.made.is_multiple_of(self.sampled);
             if sample {
                 self.sample();
+                self.downhill(false)?;
             }
             if self.film.is_due(self.made) {
                 self.film.see(self.engine.grains(), self.time());
@@ -234,6 +235,7 @@ impl<'a> Run<'a> {
         }
         self.exchange.look(&self.engine, self.engine.settings().dt);
         limits::grains(self.flow, &self.engine, &self.exchange)?;
+        self.downhill(true)?;
         Ok(Status::Done)
     }
 
