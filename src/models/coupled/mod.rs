@@ -7,6 +7,7 @@
 
 mod advice;
 pub mod case;
+mod direction;
 mod exchange;
 mod felt;
 mod hold;

@@ -193,6 +193,7 @@ impl<'a> Flow<'a> for Run<'a> {
         self.made += 1;
         if self.is_sampled() {
             self.sample();
+            self.downhill(false)?;
         }
         Ok(())
     }
@@ -215,7 +216,12 @@ impl<'a> Flow<'a> for Run<'a> {
 
     fn end(&mut self) -> Result<(), SolveError> {
         self.exchange.look(&self.engine, self.engine.settings().dt);
-        Ok(limits::grains(self.flow, &self.engine, &self.exchange)?)
+        limits::grains(self.flow, &self.engine, &self.exchange)?;
+        self.downhill(true)
+    }
+
+    fn advised(&self, error: SolveError) -> SolveError {
+        self.hinted(error)
     }
 
     fn outcome(&mut self, status: Status) -> Result<Outcome, SolveError> {
