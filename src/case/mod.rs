@@ -7,6 +7,7 @@
 //! The schema is generated from the structs in [`tables`], and the same schema checks the files, so the two cannot drift.
 
 mod advice;
+mod angle;
 pub mod checks;
 pub mod coupled;
 mod diagnose;

@@ -15,9 +15,9 @@ use crate::discrete::bed::accepts;
 use crate::discrete::couple;
 use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
 use crate::problem::{Model, Problem};
-use crate::result::{Cost, Snapshot, Status, Summary, Watch, quantity};
+use crate::result::{Cost, Reported, Snapshot, Status, Summary, Watch, quantity};
 use crate::runtime::{cost::peak_memory_mb, pool};
-use crate::units::{readable, significant};
+use crate::units::{readable, readable_error, significant};
 
 /// Solve a case and write its folder: numbers, tables, report.
 #[derive(Debug, Args)]
@@ -196,12 +196,13 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
 /// What the transport rate is worth.
 fn trust(summary: &Summary) -> String {
     let known = summary.results.iter().find(|(name, _)| *name == quantity::TRANSPORT_RATE.name);
-    if let Some(error) = known.and_then(|(_, reported)| reported.stderr) {
-        let value = known.and_then(|(_, reported)| reported.value).filter(|value| *value != 0.0);
-        return match value {
-            Some(value) => format!("± {} %", significant(100.0 * error / value.abs(), 2)),
-            None => format!("± {}", readable(error, quantity::TRANSPORT_RATE.unit)),
-        };
+    if let Some((_, Reported { value: Some(value), stderr, reason })) = known {
+        let error = stderr.map(|error| readable_error(*value, error, quantity::TRANSPORT_RATE.unit));
+        match (error, reason) {
+            (Some(known), _) => return known.unwrap_or_else(|| "error unknown".into()),
+            (None, Some(reason)) => return format!("error unknown: {reason}"),
+            (None, None) => {}
+        }
     }
     let lambda = |key: &str| summary.regularisation.get(key).and_then(Value::as_f64);
     let lambda = lambda("lambda_scaled").or_else(|| lambda("lambda_1_s"));

@@ -12,6 +12,7 @@ pub mod bed;
 pub mod body;
 pub mod budget;
 pub mod cells;
+mod certainty;
 pub mod checkpoint;
 pub mod contacts;
 pub mod couple;

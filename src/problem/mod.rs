@@ -4,6 +4,7 @@ mod bed;
 mod coupled;
 mod grains;
 mod others;
+pub mod premises;
 mod section;
 mod shear_cell;
 mod sheet;

@@ -10,8 +10,9 @@ use std::ops::ControlFlow;
 
 use serde_json::Map;
 
-use super::bed_results::{closure_name, outside};
+use super::bed_results::closure_name;
 use crate::numerics::root::NoRoot;
+use crate::problem::premises::{self, outside};
 use crate::result::{
     Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch,
     quantity,

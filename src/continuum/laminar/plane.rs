@@ -9,6 +9,7 @@ use super::single::{self, Solved};
 use crate::closures::regularisation::Regularisation;
 use crate::continuum::exact::{balance, no_root, outcome};
 use crate::numerics::root::brent;
+use crate::problem::premises;
 use crate::problem::{BinghamDrive, BinghamPlane, RegularisedPlane};
 use crate::result::{Failure, Outcome, Profile, Results, SolveError, TableError, Watch, quantity as q};
 use crate::units::significant;
@@ -118,7 +119,8 @@ pub fn run(problem: &RegularisedPlane, cells: usize, watch: &mut dyn Watch) -> R
         balances.push(balance("solver", *last, "last residual of the iteration"));
     }
     let profile = look(watch).then(|| profile(plane, y, &solution)).transpose()?;
-    let mut outcome = outcome(profile, solution.solved.history.clone(), results, balances, Vec::new())?;
+    let validity = results.get(q::REYNOLDS.name).and_then(premises::laminar).into_iter().collect();
+    let mut outcome = outcome(profile, solution.solved.history.clone(), results, balances, validity)?;
     outcome.regularisation = small_numbers(regularisation, plane.shear_scale());
     Ok(outcome)
 }

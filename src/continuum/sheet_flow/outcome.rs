@@ -14,8 +14,9 @@ use crate::closures::friction::mu_i;
 use crate::closures::lid::{Lid, colebrook_white};
 use crate::closures::suspension::{Suspension, rouse};
 use crate::closures::{Info, Range};
-use crate::continuum::bed_results::{closure_name, outside};
+use crate::continuum::bed_results::closure_name;
 use crate::continuum::exact::{balance, outcome};
+use crate::problem::premises::outside;
 use crate::problem::{BedReading, SheetFlow, SheetMethod};
 use crate::result::{Balance, Failure, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q};
 

@@ -13,8 +13,9 @@ use super::steady;
 use super::system::{Column, Spacing};
 use crate::closures::friction::mu_i;
 use crate::closures::kinetic::{Granular, garzo_dufty};
-use crate::continuum::bed_results::{closure_name, outside};
+use crate::continuum::bed_results::closure_name;
 use crate::continuum::exact::{balance, outcome};
+use crate::problem::premises::outside;
 use crate::problem::{State, TwoFluid};
 use crate::result::{Balance, Failure, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q};
 

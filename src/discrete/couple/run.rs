@@ -215,7 +215,7 @@ impl<'a> Run<'a> {
             let rate = (self.made - begun) as f64 / clock.elapsed().as_secs_f64().max(1e-9);
             let left = (self.periods - self.made) as f64 / rate;
             let known = self.record.rows.last().map(|row| (&q::TRANSPORT_RATE, row[3]));
-            let precision = match self.record.precision().filter(|_| sample) {
+            let precision = match self.record.precision().filter(|error| sample && *error < 1.0) {
                 Some(error) => format!(" ± {:.1} %", 100.0 * error),
                 None => String::new(),
             };

@@ -1,7 +1,7 @@
 //! What is fitted: positive numbers of a case, by their logarithms, within bounds.
 
 use super::{Listening, MISFIT, Request, Target, report};
-use crate::case::nearest;
+use crate::case::{Case, nearest};
 use crate::numerics::least_squares::{self, Fit};
 use crate::problem::{Model, Problem};
 use crate::result::{ErrorReport, Profile, Snapshot, Watch};
@@ -12,6 +12,7 @@ use crate::study::{Observer, StudyError};
 pub struct Parameters {
     case: String,
     overrides: Vec<String>,
+    read: Case,
     /// `table.key`
     pub keys: Vec<String>,
     /// the shortest endings of the keys that tell them apart
@@ -44,9 +45,9 @@ impl Parameters {
         let apart =
             |key: &str| ["case.", "check.", "limit.", "grid.", "solver.", "output."].iter().any(|t| key.starts_with(t));
         numbers.retain(|(key, _)| !apart(key));
-        let (case, overrides) = (request.case.clone(), request.overrides.clone());
+        let (name, overrides) = (request.case.clone(), request.overrides.clone());
         let (keys, names, start) = (Vec::new(), Vec::new(), Vec::new());
-        let mut all = Self { case, overrides, keys, names, start, bounds: Vec::new() };
+        let mut all = Self { case: name, overrides, read: case, keys, names, start, bounds: Vec::new() };
         for argument in &request.fit {
             let (key, range) = argument.split_once('=').map_or((argument.as_str(), None), |(k, r)| (k, Some(r)));
             let (key, start) = find(key.trim(), &numbers, &others).map_err(|refused| bad(argument, refused))?;
@@ -102,7 +103,7 @@ impl Parameters {
     /// What is set in the case for these logarithms.
     #[must_use]
     pub fn settings(&self, ln: &[f64]) -> Vec<String> {
-        self.keys.iter().zip(self.values(ln)).map(|(key, value)| format!("{key}={value:e}")).collect()
+        self.keys.iter().zip(self.values(ln)).map(|(key, value)| self.read.setting(key, value)).collect()
     }
 
     /// The profile of the case with these logarithms.
