@@ -6,9 +6,9 @@ mod readable;
 
 use std::fmt;
 
-pub use readable::{readable, readable_mean, readable_unit, significant};
+pub use readable::{ROUND_OFF, readable, readable_error, readable_known, readable_mean, readable_unit, significant};
 
-/// Powers of metre, kilogram and second. Angles and ratios are dimensionless.
+/// Powers of metre, kilogram, second and radian. A ratio is a pure number; an angle is none: its tangent and its sine are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dimension {
     /// power of the metre
@@ -17,18 +17,26 @@ pub struct Dimension {
     pub mass: i32,
     /// power of the second
     pub time: i32,
+    /// power of the radian
+    pub angle: i32,
 }
 
 impl Dimension {
     const fn new(length: i32, mass: i32, time: i32) -> Self {
-        Self { length, mass, time }
+        Self { length, mass, time, angle: 0 }
     }
+
+    /// That of an angle.
+    pub const ANGLE: Self = Self { angle: 1, ..Self::new(0, 0, 0) };
+    /// That of a pure number.
+    pub const NONE: Self = Self::new(0, 0, 0);
 
     fn times(self, other: Self, power: i32) -> Self {
         Self {
             length: self.length + power * other.length,
             mass: self.mass + power * other.mass,
             time: self.time + power * other.time,
+            angle: self.angle + power * other.angle,
         }
     }
 
@@ -39,7 +47,9 @@ impl Dimension {
 }
 
 const NAMES: &[(Dimension, &str)] = &[
-    (Dimension::new(0, 0, 0), "a pure number"),
+    (Dimension::NONE, "a pure number"),
+    (Dimension::ANGLE, "an angle"),
+    (Dimension { time: -1, ..Dimension::ANGLE }, "an angular velocity"),
     (Dimension::new(1, 0, 0), "a length"),
     (Dimension::new(2, 0, 0), "an area"),
     (Dimension::new(0, 0, 1), "a time"),
@@ -61,7 +71,7 @@ impl fmt::Display for Dimension {
         if let Some(name) = self.name() {
             return f.write_str(name);
         }
-        let powers = [("m", self.length), ("kg", self.mass), ("s", self.time)];
+        let powers = [("m", self.length), ("kg", self.mass), ("s", self.time), ("rad", self.angle)];
         let text: Vec<String> = powers
             .iter()
             .filter(|(_, p)| *p != 0)
@@ -144,11 +154,11 @@ const FIXED: &[(&str, f64, i32, Dimension)] = &[
     ("min", 60.0, 0, Dimension::new(0, 0, 1)),
     ("h", 3600.0, 0, Dimension::new(0, 0, 1)),
     ("t", 1.0, 3, Dimension::new(0, 1, 0)),
-    ("rad", 1.0, 0, Dimension::new(0, 0, 0)),
-    ("deg", std::f64::consts::PI / 180.0, 0, Dimension::new(0, 0, 0)),
-    ("\u{b0}", std::f64::consts::PI / 180.0, 0, Dimension::new(0, 0, 0)),
-    ("%", 1.0, -2, Dimension::new(0, 0, 0)),
-    ("1", 1.0, 0, Dimension::new(0, 0, 0)),
+    ("rad", 1.0, 0, Dimension::ANGLE),
+    ("deg", std::f64::consts::PI / 180.0, 0, Dimension::ANGLE),
+    ("\u{b0}", std::f64::consts::PI / 180.0, 0, Dimension::ANGLE),
+    ("%", 1.0, -2, Dimension::NONE),
+    ("1", 1.0, 0, Dimension::NONE),
 ];
 
 fn symbol(text: &str) -> Option<Unit> {
@@ -276,7 +286,7 @@ pub fn parse_quantity(text: &str, unit: &str) -> Result<f64, UnitError> {
     }
     let expected = parse_unit(unit)?;
     let rest = rest.trim();
-    if rest.is_empty() && expected.dimension != Dimension::default() {
+    if rest.is_empty() && expected.dimension != Dimension::NONE {
         return Err(UnitError::NoUnit { text: text.into() });
     }
     let found = parse_unit(rest)?;
@@ -336,6 +346,18 @@ mod tests {
         assert_eq!(parse_quantity("0.43", "1"), Ok(0.43));
         assert_eq!(parse_quantity("1 m²/s", "m2/s"), Ok(1.0));
         assert_eq!(parse_quantity("2 min", "s"), Ok(120.0));
+    }
+
+    #[test]
+    fn an_angle_is_no_pure_number() {
+        assert_eq!(parse_quantity("180 deg", "rad"), Ok(std::f64::consts::PI));
+        assert_eq!(parse_quantity("180 \u{b0}", "rad"), Ok(std::f64::consts::PI));
+        assert_eq!(parse_quantity("90 deg/s", "rad/s"), Ok(std::f64::consts::FRAC_PI_2));
+        for (text, unit) in [("24 deg", "1"), ("0.4 rad", "1"), ("5 %", "rad"), ("0.4 1", "rad"), ("3 rad/s", "1/s")] {
+            assert!(matches!(parse_quantity(text, unit), Err(UnitError::WrongDimension { .. })), "{text} as {unit}");
+        }
+        assert_eq!(Dimension::ANGLE.to_string(), "an angle");
+        assert_eq!(parse_unit("N m/rad").map(|unit| unit.dimension.to_string()), Ok("m2 kg s-2 rad-1".into()));
     }
 
     #[test]

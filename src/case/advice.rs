@@ -53,7 +53,7 @@ impl Fault {
             }
             Self::NotUsed { users, .. } => Some(format!("remove it; used by {}", users.join(", "))),
             Self::Missing { description, .. } if !description.is_empty() => Some(description.clone()),
-            Self::Syntax { meant: Some(line), .. } => Some(line.clone()),
+            Self::Syntax { meant: Some(text), .. } | Self::Unit { meant: Some(text), .. } => Some(text.clone()),
             Self::Unit { error: UnitError::UnknownUnit { nearest: Some(n), .. }, .. } => {
                 Some(format!("did you mean \"{n}\"?"))
             }

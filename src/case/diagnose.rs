@@ -2,12 +2,12 @@
 
 use serde_json::{Map, Value, json};
 
+use super::angle::{self, Definition};
 use super::document::{Data, Document, Node, Span};
 use super::fault::{Fault, Violation};
 use super::kind::{Kind, Kinds};
 use super::schema;
 use super::wording::{choices, expected, header, shown};
-use crate::units;
 
 /// What a document says, and what is wrong with it.
 pub(super) struct Diagnosis<'k> {
@@ -228,6 +228,11 @@ impl<'k> Walk<'k> {
                 None => meant.extend(self.unknown(name, child, schema, path)),
             }
         }
+        match angle::definition(entries, schema, path) {
+            Some(Definition::Implied(key)) => drop(object.insert(key, angle::ANGLE.into())),
+            Some(Definition::Contradicted(violation)) => self.violations.push(violation),
+            None => {}
+        }
         for name in schema.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str) {
             if !object.contains_key(name) && !meant.iter().any(|m| m == name) {
                 self.missing(name, &schema["properties"][name], path, &node.key);
@@ -312,10 +317,11 @@ impl<'k> Walk<'k> {
         let x = match &node.data {
             Data::Integer(i) => *i as f64,
             Data::Float(x) => *x,
-            Data::Text(text) if !unit.is_empty() => match units::parse_quantity(text, unit) {
+            Data::Text(text) if !unit.is_empty() => match angle::quantity(text, schema) {
                 Ok(x) => x,
                 Err(error) => {
-                    let fault = Fault::Unit { name: shown(path), error, unit: unit.into() };
+                    let meant = angle::meant(text, &error, schema);
+                    let fault = Fault::Unit { name: shown(path), error, unit: unit.into(), meant };
                     self.report(fault, path, &node.value);
                     return Value::Null;
                 }

@@ -118,6 +118,8 @@ pub enum Fault {
         error: UnitError,
         /// SI unit of the quantity
         unit: String,
+        /// what to write instead, where that can be said
+        meant: Option<String>,
     },
     /// NaN or infinite.
     #[error("{name} is not a finite number")]

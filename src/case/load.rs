@@ -8,7 +8,8 @@ use std::path::Path;
 use super::diagnose::{Diagnosis, diagnose, nearest};
 use super::document::{Document, Span, Text};
 use super::fault::{Fault, Violation};
-use super::{Case, CaseError, Kinds, shipped};
+use super::kind::{Content, Kind};
+use super::{Case, CaseError, Kinds, angle, shipped};
 
 /// Largest accepted case file [bytes].
 const LIMIT: u64 = 1 << 20;
@@ -63,19 +64,20 @@ impl Case {
             _ => document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)),
         };
         violations.extend(more.into_iter().filter(|v| broken.is_empty() || !unreadable(v)));
-        let built = found.filter(|_| readable).map(|(kind, value)| (kind.name, (kind.read)(value)));
-        let case = |model, content, document| Self {
+        let built = found.filter(|_| readable).map(|(kind, value)| (kind, (kind.read)(value)));
+        let case = |kind: &Kind, content: Content, document| Self {
             name: name.into(),
             source: source.into(),
             overrides: overrides.to_vec(),
-            model,
+            model: kind.name,
+            angles: angle::angles(&kind.schema, &content.tables),
             content,
             document,
         };
         match built {
-            Some((model, Ok(content))) if sound => Ok(case(model, content, document)),
-            Some((model, Ok(content))) => {
-                let draft = Box::new(case(model, content, document.clone()));
+            Some((kind, Ok(content))) if sound => Ok(case(kind, content, document)),
+            Some((kind, Ok(content))) => {
+                let draft = Box::new(case(kind, content, document.clone()));
                 Err(CaseError { document, violations, draft: Some(draft) })
             }
             Some((_, Err(error))) if sound => {

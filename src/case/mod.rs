@@ -7,6 +7,7 @@
 //! The schema is generated from the structs in [`tables`], and the same schema checks the files, so the two cannot drift.
 
 mod advice;
+mod angle;
 pub mod checks;
 mod diagnose;
 mod document;
@@ -43,6 +44,8 @@ pub struct Case {
     /// `kind` or `kind/solution`
     pub model: &'static str,
     content: Content,
+    /// slopes that are angles: `table.key`
+    angles: Vec<String>,
     document: Document,
 }
 

@@ -90,7 +90,10 @@ fn rows(text: &mut String, table: &Value) {
     let drives = schema::drives(table).unwrap_or_default();
     text.push_str("\n| key | needed | what | allowed |\n|---|---|---|---|\n");
     for (key, schema) in schema::properties(table).filter(|(_, s)| s.get("const").is_none()) {
-        let need = if required.contains(&key.as_str()) {
+        let angle = schema::properties(table).find(|(_, slope)| schema::text(slope, "x-angle") == key);
+        let need = if let (Some((slope, _)), true) = (angle, required.contains(&key.as_str())) {
+            format!("required unless `{slope}` is an angle")
+        } else if required.contains(&key.as_str()) {
             "required".to_owned()
         } else if drives.contains(&key.as_str()) {
             "one of the drives".to_owned()

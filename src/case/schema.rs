@@ -38,6 +38,7 @@ pub fn published(kinds: &Kinds) -> Value {
         .map(|kind| {
             let mut schema = kind.schema.clone();
             quantities(&mut schema);
+            angles(&mut schema);
             schema
         })
         .collect();
@@ -60,6 +61,29 @@ fn quantities(schema: &mut Value) {
         }
         Value::Array(items) => items.iter_mut().for_each(quantities),
         _ => {}
+    }
+}
+
+/// A slope that is given as an angle needs no definition, and contradicts every other.
+fn angles(schema: &mut Value) {
+    let Some(tables) = schema.get_mut("properties").and_then(Value::as_object_mut) else { return };
+    for table in tables.values_mut() {
+        let slope = properties(table).find(|(_, slope)| slope.get("x-angle").is_some());
+        let Some((name, key)) = slope.map(|(name, slope)| (name.clone(), text(slope, "x-angle").to_owned())) else {
+            continue;
+        };
+        let Some(table) = table.as_object_mut() else { continue };
+        let mut number = json!({});
+        if let Some(Value::Array(required)) = table.get_mut("required")
+            && required.contains(&json!(key))
+        {
+            required.retain(|other| *other != json!(key));
+            number = json!({ "required": [key] });
+        }
+        let angle = json!({ "type": "string", "pattern": "(deg|rad|\u{b0})\\s*$" });
+        table.insert("if".into(), json!({ "required": [name], "properties": { name: angle } }));
+        table.insert("then".into(), json!({ "properties": { key: { "const": "angle" } } }));
+        table.insert("else".into(), number);
     }
 }
 
@@ -105,14 +129,15 @@ pub(super) fn range(schema: &Value) -> String {
         ends.iter().filter_map(|(keyword, words)| Some(format!("{words} {}", number(bound(keyword)?)))).collect();
     let unit = text(schema, "x-unit");
     let unit = if unit.is_empty() || unit == "1" { String::new() } else { format!(" {unit}") };
-    match parts.len() {
+    let words = match parts.len() {
         0 if unit.is_empty() => "a finite number".into(),
         0 => format!("a finite number in{unit}"),
         _ if bound("minimum").is_some() && bound("minimum") == bound("maximum") => {
             format!("{}{unit}", bound("minimum").unwrap_or_default())
         }
         _ => parts.join(" and ") + &unit,
-    }
+    };
+    words + if schema.get("x-angle").is_some() { ", or an angle such as \"2 deg\"" } else { "" }
 }
 
 /// Whether a number is inside the range of its schema.

@@ -13,9 +13,9 @@ use super::{CaseArgs, CliError, Verb, answer, say};
 use crate::model::Problem;
 use crate::model::Registry;
 use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
-use crate::result::{Checkpoints, Context, Cost, Frames, Status, Summary, quantity};
+use crate::result::{Checkpoints, Context, Cost, Frames, Reported, Status, Summary, quantity};
 use crate::runtime::cost::peak_memory_mb;
-use crate::units::{readable, significant};
+use crate::units::{readable, readable_error, significant};
 
 /// Solve a case and write its folder: numbers, tables, report.
 #[derive(Debug, Args)]
@@ -201,12 +201,13 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
 /// What the transport rate is worth.
 fn trust(summary: &Summary) -> String {
     let known = summary.results.iter().find(|(name, _)| *name == quantity::TRANSPORT_RATE.name);
-    if let Some(error) = known.and_then(|(_, reported)| reported.stderr) {
-        let value = known.and_then(|(_, reported)| reported.value).filter(|value| *value != 0.0);
-        return match value {
-            Some(value) => format!("± {} %", significant(100.0 * error / value.abs(), 2)),
-            None => format!("± {}", readable(error, quantity::TRANSPORT_RATE.unit)),
-        };
+    if let Some((_, Reported { value: Some(value), stderr, reason })) = known {
+        let error = stderr.map(|error| readable_error(*value, error, quantity::TRANSPORT_RATE.unit));
+        match (error, reason) {
+            (Some(known), _) => return known.unwrap_or_else(|| "error unknown".into()),
+            (None, Some(reason)) => return format!("error unknown: {reason}"),
+            (None, None) => {}
+        }
     }
     let lambda = |key: &str| summary.regularisation.get(key).and_then(Value::as_f64);
     let lambda = lambda("lambda_scaled").or_else(|| lambda("lambda_1_s"));

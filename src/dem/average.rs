@@ -7,6 +7,7 @@
 
 use std::f64::consts::PI;
 
+use super::certainty::{LEAST_SAMPLES, of_blocks};
 use super::checkpoint::Saved;
 use super::engine::Engine;
 use super::grains::Point;
@@ -66,8 +67,8 @@ pub struct Averages {
     blocks: Vec<Block>,
 }
 
-/// A mean and its standard error, where there is one.
-pub type Mean = Option<(f64, f64)>;
+/// A mean, where there is one, and its standard error, where that can be told.
+pub type Mean = Option<(f64, Option<f64>)>;
 
 /// The averaged profile, one entry per slice.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -90,6 +91,18 @@ pub struct Averaged {
     pub drag_loss: Vec<Mean>,
     /// what contacts take from the motion of the centres [W/m3]
     pub contact_loss: Vec<Mean>,
+}
+
+impl Averaged {
+    /// The same without standard errors.
+    #[must_use]
+    pub fn without_errors(mut self) -> Self {
+        let Self { z: _, phi, velocity, temperature, shear, pressure, flux, drag_loss, contact_loss } = &mut self;
+        for means in [phi, velocity, temperature, shear, pressure, flux, drag_loss, contact_loss] {
+            means.iter_mut().flatten().for_each(|(_, error)| *error = None);
+        }
+        self
+    }
 }
 
 impl Averages {
@@ -125,6 +138,11 @@ impl Averages {
     #[must_use]
     pub fn after(&self, first: usize) -> Self {
         Self { blocks: self.blocks.iter().skip(first).cloned().collect(), ..self.clone() }
+    }
+
+    /// Whether there are samples enough for standard errors.
+    fn are_enough(&self) -> bool {
+        self.blocks.iter().map(|block| block.samples).sum::<f64>() >= LEAST_SAMPLES as f64
     }
 
     /// Each block that has samples as a profile of its own.
@@ -198,9 +216,14 @@ impl Averages {
         }
     }
 
-    /// The profile with its standard errors; empty slices have no velocity.
+    /// The profile with its standard errors, where there are samples enough; empty slices have no velocity.
     #[must_use]
     pub fn profile(&self) -> Averaged {
+        let profile = self.means();
+        if self.are_enough() { profile } else { profile.without_errors() }
+    }
+
+    fn means(&self) -> Averaged {
         let used: Vec<&Block> = self.blocks.iter().filter(|b| b.samples > 0.0).collect();
         let mut profile = Averaged::default();
         if used.is_empty() {
@@ -249,16 +272,14 @@ impl Saved for Averages {
     }
 }
 
-/// Mean of blocks and its standard error; 0 where there is one block only.
+/// Mean of blocks and its standard error.
 pub(super) fn mean(values: impl Iterator<Item = f64>) -> Mean {
     let values: Vec<f64> = values.collect();
-    let n = values.len() as f64;
     if values.is_empty() {
         return None;
     }
-    let mean = values.iter().sum::<f64>() / n;
-    let square: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
-    Some((mean, if n > 1.0 { (square / (n * (n - 1.0))).sqrt() } else { 0.0 }))
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    Some((mean, of_blocks(&values, mean).ok()))
 }
 
 #[cfg(test)]
@@ -286,9 +307,10 @@ mod tests {
 
     #[test]
     fn the_standard_error_is_that_of_independent_blocks() {
-        let (m, e) = mean([1.0, 2.0, 3.0, 4.0].into_iter()).unwrap();
-        approx::assert_relative_eq!(m, 2.5);
-        approx::assert_relative_eq!(e, (5.0_f64 / 12.0).sqrt());
+        let (m, e) = mean((1..=8).map(f64::from)).unwrap();
+        approx::assert_relative_eq!(m, 4.5);
+        approx::assert_relative_eq!(e.unwrap(), (42.0_f64 / 56.0).sqrt());
+        assert_eq!(mean((1..=7).map(f64::from)), Some((4.0, None)));
         assert_eq!(mean([].into_iter()), None);
     }
 }

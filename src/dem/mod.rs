@@ -11,6 +11,7 @@ pub mod average;
 pub mod body;
 pub mod budget;
 pub mod cells;
+pub mod certainty;
 pub mod checkpoint;
 pub mod contacts;
 pub mod deposit;

@@ -1,6 +1,7 @@
 //! What a bed of grains reports: profile, means with their errors, the account of energies.
 
 use super::average::{Averaged, Averages, Mean};
+use super::certainty::{Known, Unknown, of_series, resolved};
 use super::checkpoint::Saved;
 use super::engine::Engine;
 use super::law::LinearSpring;
@@ -101,22 +102,21 @@ impl Means {
     /// Mean velocity so far [m/s].
     #[must_use]
     pub fn velocity(&self) -> Option<f64> {
-        self.mean(3).map(|(mean, _)| mean)
+        self.mean(3).map(|known| known.mean)
+    }
+
+    fn column(&self, column: usize) -> Vec<f64> {
+        self.rows.iter().map(|row| row[column]).collect()
     }
 
     /// Mean of a column and its standard error by blocks.
-    fn mean(&self, column: usize) -> Mean {
-        let n = self.rows.len();
-        let values = |rows: &[[f64; WIDTH]]| rows.iter().map(|r| r[column]).sum::<f64>() / rows.len() as f64;
-        if n == 0 {
-            return None;
-        }
-        let all = values(&self.rows);
-        let blocks = BLOCKS.min(n);
-        let means: Vec<f64> = (0..blocks).map(|b| values(&self.rows[b * n / blocks..(b + 1) * n / blocks])).collect();
-        let square: f64 = means.iter().map(|m| (m - all) * (m - all)).sum();
-        let k = blocks as f64;
-        Some((all, if blocks > 1 { (square / (k * (k - 1.0))).sqrt() } else { 0.0 }))
+    fn mean(&self, column: usize) -> Option<Known> {
+        of_series(&self.column(column), &[BLOCKS])
+    }
+
+    /// Whether the samples of the velocity are enough for standard errors.
+    fn resolved(&self) -> Result<(), Unknown> {
+        resolved(&self.column(3))
     }
 }
 
@@ -137,11 +137,14 @@ pub fn outcome(
     means: &Means,
     status: Status,
 ) -> Result<Outcome, SolveError> {
-    let averaged = averages.profile();
+    let mut averaged = averages.profile();
+    if means.resolved().is_err() {
+        averaged = averaged.without_errors();
+    }
     let mut results = Results::default();
     results.set(&q::GRAINS, bed.mobile as f64);
     let mut mean = |quantity, column, scale: f64| match means.mean(column) {
-        Some((value, stderr)) => results.set_mean(quantity, scale * value, scale * stderr),
+        Some(known) => set_mean(&mut results, quantity, known.times(scale)),
         None => results.undefined(quantity, "nothing was averaged yet"),
     };
     mean(&q::TRANSPORT_RATE, 2, 1.0);
@@ -208,6 +211,11 @@ pub fn outcome(
     Ok(Outcome { results, balances, validity, profile, series, ..nothing(status) })
 }
 
+/// Reports a mean with its standard error, or why it has none.
+pub(crate) fn set_mean(results: &mut Results, quantity: &'static Quantity, known: Known) {
+    results.set_mean(quantity, known.mean, known.error.map_err(Unknown::reason));
+}
+
 /// Where the solid fraction falls below half of that of the bed, from above, and that of the bed.
 pub(crate) fn bed_level(averaged: &Averaged) -> Option<(f64, f64)> {
     let phi = |s: usize| averaged.phi[s].map_or(0.0, |(phi, _)| phi);
@@ -263,7 +271,7 @@ pub(crate) fn profile(bed: &GrainBed, averaged: &Averaged) -> Result<Option<Prof
     }
     let mut profile = Profile::new(averaged.z.clone())?;
     let value = |means: &[Mean]| means.iter().map(|m| m.map(|(x, _)| x)).collect::<Vec<_>>();
-    let error = |means: &[Mean]| means.iter().map(|m| m.map(|(_, e)| e)).collect::<Vec<_>>();
+    let error = |means: &[Mean]| means.iter().map(|m| m.and_then(|(_, e)| e)).collect::<Vec<_>>();
     let mut push = |quantity: &'static Quantity, values| profile.push(quantity, values);
     push(&q::PHI, value(&averaged.phi))?;
     push(&q::U_PARTICLE, value(&averaged.velocity))?;

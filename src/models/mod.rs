@@ -5,6 +5,7 @@ pub mod coupled;
 pub mod exact;
 pub mod grains;
 pub mod laminar;
+mod premises;
 pub mod section;
 pub mod shear_cell;
 pub mod sheet_flow;

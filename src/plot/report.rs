@@ -156,7 +156,10 @@ fn value(reported: &Reported, unit: &'static str) -> String {
         Some(error) => readable_mean(value, error, unit),
         None if unit == "1" && is_count(value) => format!("{value}"),
         None => readable(value, unit),
-    })
+    }) + &match &reported.reason {
+        Some(reason) => format!(" <span class=\"none\">error unknown: {}</span>", escape(reason)),
+        None => String::new(),
+    }
 }
 
 /// Whether a number is whole, as those of grains and iterations are: it has no digits after the point to show.

@@ -38,7 +38,7 @@ pub struct Reported {
     /// standard error, for means of fluctuating quantities
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub stderr: Option<f64>,
-    /// why there is no value
+    /// why there is no value, or why a mean has no standard error
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
 }
@@ -68,13 +68,14 @@ impl Results {
         }
     }
 
-    /// Reports a mean [SI] with its standard error.
-    pub fn set_mean(&mut self, quantity: &'static Quantity, value: f64, stderr: f64) {
+    /// Reports a mean [SI] with its standard error, or why that cannot be told.
+    pub fn set_mean(&mut self, quantity: &'static Quantity, value: f64, stderr: Result<f64, &str>) {
         self.set(quantity, value);
-        if let Some((_, reported)) = self.0.last_mut()
-            && stderr.is_finite()
-        {
-            reported.stderr = reported.value.map(|_| stderr);
+        let Some((_, reported)) = self.0.last_mut().filter(|(_, reported)| reported.value.is_some()) else { return };
+        match stderr {
+            Ok(error) if error.is_finite() => reported.stderr = Some(error),
+            Ok(_) => reported.reason = Some(OVERFLOWED.into()),
+            Err(reason) => reported.reason = Some(reason.into()),
         }
     }
 

@@ -18,7 +18,7 @@ use crate::output::read_run;
 use crate::plot::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
 use crate::result::Status;
 use crate::result::quantity::{self as q, Quantity};
-use crate::units::{readable, significant};
+use crate::units::{readable_known, significant};
 
 /// What is judged unless another number is asked for: the first of these that the reference has.
 const JUDGED: &[&Quantity] = &[
@@ -214,11 +214,10 @@ fn judge(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Judge
     let on = |i: usize| f64::from(u8::from(front.iter().any(|j| j.row == i)));
     let mut judgement = Judgement {
         subtitle: format!(
-            "Error of the {} against {}: {}{}. Times are medians of up to {REPEATS} solutions.",
+            "Error of the {} against {}: {}. Times are medians of up to {REPEATS} solutions.",
             truth.quantity.title,
             truth.words,
-            readable(truth.value, truth.quantity.unit),
-            truth.error.map(|e| format!(" ± {:.2} %", 100.0 * (e / truth.value).abs())).unwrap_or_default()
+            readable_known(truth.value, truth.error, truth.quantity.unit),
         ),
         measures: vec![
             ("error".into(), errors.clone()),

@@ -1,5 +1,8 @@
 //! Numbers as a reader expects them: few digits, a decimal multiple of the unit, an error with two digits.
 
+/// Error over a value that is round-off.
+pub const ROUND_OFF: f64 = 1e-9;
+
 /// `value` with `digits` significant digits, in decimal or scientific notation, whichever a reader expects.
 #[must_use]
 pub fn significant(value: f64, digits: usize) -> String {
@@ -40,12 +43,34 @@ pub fn readable(value: f64, unit: &'static str) -> String {
     if symbol.is_empty() || symbol == "1" { number } else { format!("{number} {symbol}") }
 }
 
+/// How well `value` is known: `± 3.2 %`, or the error itself where the value is no larger; `None` for an error that is none,
+/// 0 or round-off.
+#[must_use]
+pub fn readable_error(value: f64, error: f64, unit: &'static str) -> Option<String> {
+    if !(error.is_finite() && error > ROUND_OFF * value.abs()) {
+        return None;
+    }
+    let share = 100.0 * error / value.abs();
+    Some(if share < 100.0 {
+        format!("± {} %", significant(share, 2))
+    } else {
+        format!("± {}", readable(error, unit))
+    })
+}
+
+/// `value` with four digits and how well it is known, as `12.10 mm ± 3.2 %`.
+#[must_use]
+pub fn readable_known(value: f64, error: Option<f64>, unit: &'static str) -> String {
+    let error = error.and_then(|error| readable_error(value, error, unit));
+    readable(value, unit) + &error.map_or_else(String::new, |error| format!(" {error}"))
+}
+
 /// `value ± error` in a readable multiple of `unit`, the error with two digits, such as `12.10 ± 0.12 mm`.
 #[must_use]
 pub fn readable_mean(value: f64, error: f64, unit: &'static str) -> String {
     let (factor, symbol) = readable_unit(value, unit);
     // An error of round-off is none.
-    let error = if error.abs() < 1e-9 * value.abs() { 0.0 } else { error };
+    let error = if error.abs() < ROUND_OFF * value.abs() { 0.0 } else { error };
     let (value, error) = (value * factor, error * factor);
     let exponent = error.abs().log10().floor();
     // Two digits of the error, unless that would be none of the value, or more than anyone reads.
@@ -71,6 +96,21 @@ mod tests {
         assert_eq!(readable_mean(0.0, 0.0, "1"), "0 ± 0");
         assert_eq!(readable_mean(5.0, 0.0, "1"), "5.000 ± 0");
         assert_eq!(readable_mean(0.023_394_999, 1e-18, "m"), "23.39 ± 0 mm");
+    }
+
+    #[test]
+    fn an_error_is_a_share_of_what_is_larger_and_none_is_not_shown() {
+        let shown = |value, error| readable_error(value, error, "m²/s");
+        assert_eq!(shown(0.01275, 8.252e-5).as_deref(), Some("± 0.65 %"));
+        assert_eq!(shown(-2.0, 1.0).as_deref(), Some("± 50 %"));
+        // A bed at rest.
+        assert_eq!(shown(1e-6, 1.511e-5).as_deref(), Some("± 15.11 mm²/s"));
+        assert_eq!(shown(0.0, 1.511e-5).as_deref(), Some("± 15.11 mm²/s"));
+        assert_eq!(readable_known(0.0121, Some(1.2e-4), "m"), "12.10 mm ± 0.99 %");
+        assert_eq!(readable_known(0.0121, None, "m"), "12.10 mm");
+        for (value, error) in [(1.0, 0.0), (1.0, 1e-12), (0.0, 0.0), (1.0, f64::NAN), (1.0, f64::INFINITY)] {
+            assert_eq!(shown(value, error), None, "{value} ± {error}");
+        }
     }
 
     #[test]

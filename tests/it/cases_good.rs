@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use bedload::case::shipped;
+use bedload::case::{Case, shipped};
 
-use crate::support::{Scratch, files, load, parse, project};
+use crate::support::{REGISTRY, Scratch, files, load, parse, project};
 
 /// The resolved case of a text that must be valid.
 #[track_caller]
@@ -69,6 +69,47 @@ fn overrides_change_add_and_remove_values() {
         assert!(error.render(false).contains(wrong), "{wrong}: {}", error.render(false));
         assert!(error.reports().iter().all(|r| r.line.is_none()), "{wrong} points into the file");
     }
+}
+
+#[test]
+fn a_slope_in_degrees_is_the_angle_whatever_a_number_would_be() {
+    let angle = "slope = \"24 deg\"";
+    let radians = format!("slope = {:?}\nslope_definition = \"angle\"", 24.0 * (std::f64::consts::PI / 180.0));
+    for (name, line) in [
+        ("exact_1d_bagnold", "slope = \"24 deg\"\nslope_definition = \"angle\""),
+        ("grains_3d_chute", "slope = \"24 deg\"\nslope_definition = \"angle\""),
+        ("kinetic_1d_theta06", "slope = 0.05\nslope_definition = \"sine\""),
+        ("coupled_2d_exp14_quick", "slope = 0.1\nslope_definition = \"tangent\""),
+        ("sheet_1d_theta06", "slope = 0.05\nslope_definition = \"sine\""),
+    ] {
+        let text = shipped::find(name).unwrap();
+        assert!(text.contains(line), "{name} has no {line}");
+        let [short, long] = [angle, &radians].map(|slope| resolved(&text.replace(line, slope)));
+        assert_eq!(short, long, "{name}");
+        assert_eq!(resolved(&short), short, "{name}");
+        // A percentage is a ratio, as ever, where a definition says which.
+        let tangent = "slope = \"5 %\"\nslope_definition = \"tangent\"";
+        assert!(resolved(&text.replace(line, tangent)).contains("slope = 0.05\n"), "{name}");
+    }
+    let with = |sets: &[&str]| {
+        let sets: Vec<String> = sets.iter().map(|&set| set.to_owned()).collect();
+        Case::load(REGISTRY.kinds(), "coupled_2d_exp14_quick", &sets).map(|case| case.resolved())
+    };
+    assert!(with(&["flow.slope=2 deg"]).is_err(), "the file says tangent");
+    assert!(with(&["flow.slope=2 deg", "flow.slope_definition="]).unwrap().contains("slope_definition = \"angle\""));
+}
+
+#[test]
+fn a_number_is_set_as_what_it_is_in_the_case() {
+    let film = shipped::find("exact_1d_bagnold").unwrap().replace("slope_definition = \"angle\"\n", "");
+    let case = Case::parse(REGISTRY.kinds(), "film", "film", film.clone(), &[]).unwrap();
+    let set = case.setting("flow.slope", 0.4);
+    assert_eq!(set, "flow.slope=4e-1 rad");
+    assert_eq!(case.setting("flow.height", 0.02), "flow.height=2e-2");
+    let again = Case::parse(REGISTRY.kinds(), "film", "film", film, &[set]).unwrap().resolved();
+    assert!(again.contains("slope = 0.4\nslope_definition = \"angle\""), "{again}");
+    let tangent = Case::load(REGISTRY.kinds(), "coupled_2d_exp14_quick", &[]).unwrap();
+    assert_eq!(tangent.setting("flow.slope", 0.4), "flow.slope=4e-1");
 }
 
 #[test]

@@ -114,6 +114,39 @@ fn a_flume_ends_when_its_rate_is_known_well_enough() {
 }
 
 #[test]
+fn what_few_samples_tell_has_no_error_and_ends_no_run() {
+    let scratch = Scratch::new();
+    let run = |more: &[&str], out: &str| {
+        let words = ["run", "coupled_2d_exp14_quick", "--set", "flow.length=150 mm", "--out", out];
+        scratch.bedload(words.into_iter().chain(more.iter().flat_map(|set| ["--set", *set]))).exits(0).out
+    };
+    for (out, duration) in [("one", "discrete.duration=0.1 s"), ("few", "discrete.duration=1 s")] {
+        let said = run(&[duration, "discrete.known_to=1"], out);
+        assert!(said.contains("error unknown: too few samples") && !said.contains('±'), "{said}");
+        let summary = scratch.summary(out);
+        for name in ["transport_rate_m2_s", "bed_level_m", "shields_turbulent", "shields", "u_star_m_s"] {
+            let reported = &summary["results"][name];
+            assert!(reported["value"].is_f64() && reported["stderr"].is_null(), "{name}: {reported}");
+            assert_eq!(reported["reason"], "too few samples", "{name}: {reported}");
+        }
+        let page = scratch.read(&format!("{out}/report.html"));
+        assert!(page.contains("error unknown: too few samples") && !page.contains('±'));
+        let profile = Profile::read_csv(scratch.read(&format!("{out}/profile.csv")).as_bytes()).unwrap();
+        for quantity in [&q::PHI, &q::U_PARTICLE, &q::U_FLUID, &q::TAU_REYNOLDS] {
+            assert!(
+                profile.errors(quantity).is_none_or(|errors| errors.iter().all(Option::is_none)),
+                "{}",
+                quantity.name
+            );
+        }
+        // Even a rate that need be known to 100 % is not known.
+        let made = number(&summary, "transient_s") + number(&summary, "averaged_time_s");
+        let wanted = if out == "one" { 0.1 } else { 1.0 };
+        assert!((made / wanted - 1.0).abs() < 0.05, "{made} s");
+    }
+}
+
+#[test]
 fn grains_that_give_nothing_back_fall_and_flow() {
     let scratch = Scratch::new();
     let more = ["--set", "closures.contact.e_n=0.01", "--set", "discrete.duration=0.4 s", "--out", "out"];

@@ -22,6 +22,7 @@ mod mutate;
 mod never_panics;
 mod page;
 mod paths;
+mod premises;
 mod report;
 mod schema;
 mod section;

@@ -28,6 +28,26 @@ fn the_schema_is_one_of_the_models() {
     assert!(properties > 40, "{properties} properties");
 }
 
+#[test]
+fn a_slope_with_a_unit_needs_no_definition_and_a_number_does() {
+    let scratch = Scratch::new();
+    let schema = scratch.bedload(["schema"]).exits(0).json();
+    let flows = schema["oneOf"].as_array().unwrap().iter().map(|model| &model["properties"]["flow"]);
+    let slopes: Vec<&Value> = flows.filter(|flow| flow["properties"]["slope"].is_object()).collect();
+    assert_eq!(slopes.len(), 5);
+    let mut strict = 0;
+    for flow in slopes {
+        let required = flow["required"].as_array();
+        assert!(required.is_none_or(|keys| keys.iter().all(|key| key != "slope_definition")), "{flow}");
+        assert_eq!(flow["if"]["required"][0], "slope");
+        let pattern = flow["if"]["properties"]["slope"]["pattern"].as_str().unwrap();
+        assert!(pattern.contains("deg|rad"), "{pattern}");
+        assert_eq!(flow["then"]["properties"]["slope_definition"]["const"], "angle");
+        strict += usize::from(flow["else"]["required"][0] == "slope_definition");
+    }
+    assert_eq!(strict, 3, "film, two fluids and coupled grains have no default");
+}
+
 /// Every property says what it is.
 fn described(schema: &Value, path: &str, count: &mut usize) {
     for (name, property) in schema["properties"].as_object().into_iter().flatten() {

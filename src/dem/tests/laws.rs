@@ -80,7 +80,7 @@ fn means_of_a_slice_are_those_of_its_grains() {
     averages.sample(&engine, 0, |_| [0.0; 3]);
     let profile = averages.profile();
     let phi = 4.0 * grains[0].mass() / RHO / (0.02 * 0.01);
-    let value = |mean: &[Option<(f64, f64)>]| mean[0].unwrap().0;
+    let value = |mean: &[crate::dem::average::Mean]| mean[0].unwrap().0;
     approx::assert_relative_eq!(value(&profile.phi), phi, max_relative = 1e-12);
     approx::assert_relative_eq!(value(&profile.velocity), 2.0, max_relative = 1e-12);
     // <u'u'> = 1, <v'v'> = 2, <w'w'> = 1/4, <u'w'> = -1/2.

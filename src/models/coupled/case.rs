@@ -54,10 +54,10 @@ pub struct CoupledFlow {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e2))]
     pub depth: Option<f64>,
-    /// Drive: the slope, as slope_definition says.
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    /// Drive: the slope, as slope_definition says, or an angle.
+    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
     pub slope: f64,
-    /// What the number given as slope is: papers differ.
+    /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
     pub slope_definition: SlopeDefinition,
     /// Acceleration of gravity.
     #[serde(default = "gravity")]

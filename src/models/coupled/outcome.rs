@@ -1,12 +1,12 @@
 //! What a coupled run reports: profiles with their errors, transport rate, Shields numbers, balances.
 
 use super::hold::Hold;
-use super::record::Known;
 use super::run::Run;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
 use crate::closures::drag::dallavalle_grain::RANGE as HINDRANCE_RANGE;
 use crate::dem::budget;
-use crate::dem::outcome::{bed_level, nothing, profile};
+use crate::dem::certainty::Known;
+use crate::dem::outcome::{bed_level, nothing, profile, set_mean};
 use crate::dem::stability;
 use crate::result::{Balance, Outcome, Results, Series, SolveError, Status, Validity, quantity as q};
 
@@ -19,6 +19,10 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let (first, over) = run.record.transient();
     let averages = run.averages.after(first);
     let mut averaged = averages.profile();
+    let resolved = run.record.resolved(first).is_ok();
+    if !resolved {
+        averaged = averaged.without_errors();
+    }
     let blind = run.hold.as_ref().and_then(Hold::blind);
     if let Some(level) = blind {
         let below = averaged.z.iter().take_while(|z| **z < level).count();
@@ -33,7 +37,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let grain = std::f64::consts::PI / 6.0 * bed.d.powi(3);
     let rate = run.record.mean(3, first);
     let mut set = |quantity, known: Option<Known>, scale: f64| match known {
-        Some(Known { mean, error }) => results.set_mean(quantity, scale * mean, scale * error),
+        Some(known) => set_mean(&mut results, quantity, known.times(scale)),
         None => results.undefined(quantity, "nothing was sampled yet"),
     };
     set(&q::TRANSPORT_RATE, rate, 1.0);
@@ -45,9 +49,9 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     // The largest of the mean stress; its error is that of the cell where it is.
     let largest = fluid.iter().map(|cell| cell[1]).reduce(|a, b| if b.mean > a.mean { b } else { a });
     set(&q::SHIELDS_TURBULENT, largest, 1.0 / stress);
-    let star = largest.filter(|known| known.mean > 0.0).map(|Known { mean, error }| {
-        let u = (mean / flow.rho_f).sqrt();
-        Known { mean: u, error: 0.5 * u * error / mean }
+    let star = largest.filter(|known| known.mean > 0.0).map(|known| {
+        let u = (known.mean / flow.rho_f).sqrt();
+        Known { mean: u, error: known.error.map(|error| 0.5 * u * error / known.mean) }
     });
     set(&q::U_STAR, star, 1.0);
     let height = run.exchange.cell_height() * fluid.len() as f64;
@@ -59,8 +63,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     if let (Some(level), false) = (level, fluid.is_empty()) {
         let at = ((level.mean / run.exchange.cell_height()) as usize).min(fluid.len() - 1);
         let [_, reynolds, viscous, ..] = fluid[at];
-        let both = Known { mean: reynolds.mean + viscous.mean, error: reynolds.error.hypot(viscous.error) };
-        set(&q::SHIELDS, Some(both), 1.0 / stress);
+        set(&q::SHIELDS, Some(reynolds.plus(viscous)), 1.0 / stress);
     }
     results.set(&q::FLOW_HEIGHT, height);
     results.set(&q::SLOPE_SINE, bed.beta.sin());
@@ -88,7 +91,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let mut table = None;
     if let Some(mut made) = profile(bed, &averaged)? {
         let column = |k: usize| fluid.iter().map(|cell| Some(cell[k].mean)).collect::<Vec<_>>();
-        let errors = |k: usize| fluid.iter().map(|cell| Some(cell[k].error)).collect::<Vec<_>>();
+        let errors = |k: usize| fluid.iter().map(|cell| cell[k].error.ok()).collect::<Vec<_>>();
         let mixture = |((cell, phi), u): ((&[Known; 5], &crate::dem::average::Mean), &crate::dem::average::Mean)| {
             let phi = phi.map_or(0.0, |(phi, _)| phi);
             Some((1.0 - phi) * cell[0].mean + phi * u.map_or(0.0, |(u, _)| u))
@@ -103,7 +106,8 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
         for (value, error, means) in budget::columns(bed, &averages) {
             made.push(value, means.iter().map(|mean| mean.map(|(x, _)| x)).collect())?;
             if let Some(error) = error {
-                made.push(error, means.iter().map(|mean| mean.map(|(_, e)| e)).collect())?;
+                let errors = means.iter().map(|mean| mean.and_then(|(_, e)| e).filter(|_| resolved));
+                made.push(error, errors.collect())?;
             }
         }
         made.push(&q::U_FLUID_STDERR, errors(0))?;

@@ -1,13 +1,14 @@
 //! What is remembered of a run: samples, blocks of the fluid, and where the transient ends.
 
 use super::exchange::Exchange;
+use crate::dem::certainty::{Known, LEAST_BLOCKS, Unknown, of_blocks, of_series, resolved};
 use crate::dem::checkpoint::{Reader, Saved, Writer};
 use crate::result::CheckpointError;
 
 /// Blocks of the whole duration.
 pub const BLOCKS: usize = 40;
-/// Least blocks of a mean.
-const LEAST: usize = 8;
+/// Numbers of blocks of which the one with the largest standard error tells it.
+const COUNTS: &[usize] = &[8, 12, 20];
 /// Columns of the fluid that are averaged.
 pub const FLUID: usize = 5;
 /// Columns of a sample.
@@ -32,15 +33,6 @@ pub struct Record {
     pub rows: Vec<Row>,
     /// blocks of the fluid
     pub blocks: Vec<Block>,
-}
-
-/// A mean over blocks and its standard error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
-    /// mean
-    pub mean: f64,
-    /// standard error
-    pub error: f64,
 }
 
 impl Record {
@@ -77,18 +69,29 @@ impl Record {
     /// Mean of `column` from block `first` on, and its standard error by blocks of time.
     #[must_use]
     pub fn mean(&self, column: usize, first: usize) -> Option<Known> {
-        let values: Vec<f64> = self.rows.iter().filter(|row| row[1] as usize >= first).map(|row| row[column]).collect();
-        known(&values)
+        of_series(&self.column(column, first), COUNTS)
     }
 
-    /// Standard error of the transport rate over it, where there are samples enough to say so.
+    /// Whether the samples of the transport rate from block `first` on are enough for standard errors.
+    ///
+    /// # Errors
+    /// Why they are not.
+    pub fn resolved(&self, first: usize) -> Result<(), Unknown> {
+        resolved(&self.column(3, first))
+    }
+
+    fn column(&self, column: usize, first: usize) -> Vec<f64> {
+        self.rows.iter().filter(|row| row[1] as usize >= first).map(|row| row[column]).collect()
+    }
+
+    /// Standard error of the transport rate over it, where it has one and there are samples enough to rely on it.
     #[must_use]
     pub fn precision(&self) -> Option<f64> {
         let (first, over) = self.transient();
         let blocks = self.rows.last()?[1] as usize + 1;
-        let enough = over && blocks >= first + LEAST && self.rows.len() >= 80;
+        let enough = over && blocks >= first + LEAST_BLOCKS && self.rows.len() >= 80;
         let known = self.mean(3, first).filter(|_| enough)?;
-        (known.mean > 0.0).then(|| known.error / known.mean)
+        known.error.ok().filter(|_| known.mean > 0.0).map(|error| error / known.mean)
     }
 
     /// Fluid per cell from block `first` on: means, and standard errors of them.
@@ -96,12 +99,11 @@ impl Record {
     pub fn fluid(&self, first: usize) -> Vec<[Known; FLUID]> {
         let blocks: Vec<&Block> = self.blocks[first..].iter().filter(|block| block.samples > 0.0).collect();
         let cells = self.blocks[0].sums.len();
+        let enough = self.resolved(first);
         let one = |cell: usize, k: usize| {
             let values: Vec<f64> = blocks.iter().map(|block| block.sums[cell][k] / block.samples).collect();
-            let n = values.len() as f64;
-            let mean = values.iter().sum::<f64>() / n;
-            let square: f64 = values.iter().map(|x| (x - mean) * (x - mean)).sum();
-            Known { mean, error: if n > 1.0 { (square / (n * (n - 1.0))).sqrt() } else { 0.0 } }
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            Known { mean, error: enough.and_then(|()| of_blocks(&values, mean)) }
         };
         if blocks.is_empty() {
             return Vec::new();
@@ -177,25 +179,6 @@ fn marginal(values: &[f64]) -> usize {
     best.1
 }
 
-/// Mean of correlated values; the standard error is the largest of those by 8, 12 and 20 blocks.
-fn known(values: &[f64]) -> Option<Known> {
-    let n = values.len();
-    if n == 0 {
-        return None;
-    }
-    let mean = values.iter().sum::<f64>() / n as f64;
-    let by = |blocks: usize| {
-        let means = (0..blocks).map(|b| {
-            let part = &values[b * n / blocks..(b + 1) * n / blocks];
-            part.iter().sum::<f64>() / part.len() as f64
-        });
-        let square: f64 = means.map(|m| (m - mean) * (m - mean)).sum();
-        (square / (blocks * (blocks - 1)) as f64).sqrt()
-    };
-    let error = [8, 12, 20].into_iter().filter(|&blocks| blocks <= n).map(by).fold(0.0, f64::max);
-    Some(Known { mean, error })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -220,21 +203,5 @@ mod tests {
         let cut = marginal(&values);
         assert!((80..220).contains(&cut), "{cut}");
         assert!(marginal(&noise(1000, 3.0, 2)) < 300);
-    }
-
-    #[test]
-    fn the_standard_error_covers_the_truth_as_often_as_it_should() {
-        // Variance of the mean of n values with correlation a: about 0.04 (1 + a)/(1 - a)/n.
-        let inside = (0..200)
-            .filter(|&seed| {
-                let Known { mean, error } = known(&noise(1000, 5.0, seed + 10)).unwrap();
-                (mean - 1.0).abs() < 2.0 * error
-            })
-            .count();
-        assert!(inside > 180, "{inside} of 200 within two standard errors");
-        let error = known(&noise(1000, 5.0, 3)).unwrap().error;
-        let a = (-0.2_f64).exp();
-        let exact = (0.04 * (1.0 + a) / (1.0 - a) / 1000.0).sqrt();
-        assert!((0.6..2.0).contains(&(error / exact)), "{error} {exact}");
     }
 }

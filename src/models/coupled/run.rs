@@ -201,7 +201,7 @@ impl<'a> Flow<'a> for Run<'a> {
     fn progress(&self, made: u64, since: Instant) -> Progress {
         let rate = made as f64 / since.elapsed().as_secs_f64().max(1e-9);
         let left = (self.periods - self.made) as f64 / rate;
-        let precision = match self.record.precision().filter(|_| self.is_sampled()) {
+        let precision = match self.record.precision().filter(|error| self.is_sampled() && *error < 1.0) {
             Some(error) => format!(" ± {:.1} %", 100.0 * error),
             None => String::new(),
         };

@@ -3,6 +3,7 @@
 use crate::closures::drag::carman_kozeny;
 use crate::closures::{Info, Range};
 use crate::models::exact::bed::{Drive, LaminarBed};
+use crate::models::premises::{self, outside};
 use crate::result::{Results, Validity, quantity as q};
 
 /// A continuum layer is at least one grain thick.
@@ -84,7 +85,15 @@ impl BedNumbers {
         results
     }
 
-    /// Closures used outside their range.
+    /// Bulk Reynolds number on the gap over the bed: its mean velocity over the gap times the gap over the viscosity.
+    fn bulk_reynolds(&self, bed: &LaminarBed) -> f64 {
+        // A parabola with the stress tau on the bed and at rest on the wall above.
+        let gap = 1.0 - bed.h_p / bed.h;
+        let discharge = gap * gap * (self.f * gap / 3.0 - 0.5 * self.tau);
+        bed.rho_f * discharge * bed.velocity_scale() * bed.h / bed.eta
+    }
+
+    /// Closures used outside their range, and a flow that is not laminar.
     pub fn validity(&self, bed: &LaminarBed) -> Vec<Validity> {
         let viscosity = bed.viscosity.info();
         let mut found: Vec<Validity> = Vec::new();
@@ -100,19 +109,9 @@ impl BedNumbers {
             found.extend(outside("continuum/mobile layer".into(), &THICKNESS, grains));
         }
         found.extend(outside("continuum/static layer".into(), &REST, self.h_c * bed.h / bed.d));
+        found.extend(premises::laminar(self.bulk_reynolds(bed)));
         found
     }
-}
-
-/// Says so if `value` is outside `range`.
-pub(in crate::models) fn outside(closure: String, range: &Range, value: f64) -> Option<Validity> {
-    (!range.contains(value)).then(|| Validity {
-        closure,
-        variable: range.variable.into(),
-        value,
-        range: range.to_string(),
-        z_m: None,
-    })
 }
 
 /// `family/law`.

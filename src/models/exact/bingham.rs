@@ -14,6 +14,7 @@
 pub(in crate::models) use super::bingham_case::plane;
 pub use super::bingham_case::{BinghamDrive, BinghamPlane};
 use super::{Column, balance, no_root, outcome, tabulate};
+use crate::models::premises;
 use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
 use crate::numerics::root::brent;
@@ -131,7 +132,9 @@ pub fn run(plane: &BinghamPlane, cells: usize, watch: &mut dyn Watch) -> Result<
         let how = "Simpson integral of the velocity against the closed form of the mean";
         balances.push(balance("discharge", integral / (solution.mean() * plane.h) - 1.0, how));
     }
-    outcome(profile, history, results(plane, &solution), balances, Vec::new())
+    let results = results(plane, &solution);
+    let validity = results.get(q::REYNOLDS.name).and_then(premises::laminar).into_iter().collect();
+    outcome(profile, history, results, balances, validity)
 }
 
 fn results(plane: &BinghamPlane, solution: &Solution) -> Results {

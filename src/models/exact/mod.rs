@@ -13,12 +13,13 @@ pub mod ouriemi;
 
 use std::ops::ControlFlow;
 
+use crate::models::premises::outside;
 use crate::numerics::root::NoRoot;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch,
     quantity,
 };
-use bed_results::{closure_name, outside};
+use bed_results::closure_name;
 
 /// Levels between two looks at the watch.
 const BETWEEN_LOOKS: usize = 512;

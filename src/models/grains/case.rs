@@ -35,11 +35,11 @@ pub struct GrainFlow {
     /// Whether the side walls are without friction.
     #[serde(default)]
     pub smooth_walls: bool,
-    /// Drive: the slope, as slope_definition says; 0 is a bed at rest.
+    /// Drive: the slope, as slope_definition says, or an angle; 0 is a bed at rest.
     #[serde(default)]
-    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
+    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "minimum" = 0.0, "maximum" = 10.0))]
     pub slope: f64,
-    /// What the number given as slope is: papers differ.
+    /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
     #[serde(default = "tangent")]
     pub slope_definition: SlopeDefinition,
     /// Acceleration of gravity.
@@ -152,7 +152,7 @@ pub struct ImpactFlow {
     pub angle: f64,
     /// Angular velocity before the impact; positive rolls with the motion.
     #[serde(default)]
-    #[schemars(extend("x-unit" = "1/s", "minimum" = -1e6, "maximum" = 1e6))]
+    #[schemars(extend("x-unit" = "rad/s", "minimum" = -1e6, "maximum" = 1e6))]
     pub spin: f64,
     /// What it hits.
     #[serde(default)]

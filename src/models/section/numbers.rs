@@ -17,6 +17,8 @@ const STANDS: f64 = 1e-6;
 pub struct Numbers {
     /// integral of the velocity over the section
     pub flow_rate: f64,
+    /// mean velocity over the section above the bed, the whole one without a bed
+    pub clear: f64,
     /// integral of the velocity of the grains over the bed
     pub grains: f64,
     /// level and size of the largest velocity, on the symmetry plane
@@ -54,7 +56,9 @@ impl Numbers {
             None if moves => level,
             None => 0.0,
         };
+        let above = |u: &[f64]| divided.integral(u, mesh.bed_rows..mesh.rows);
         Self {
+            clear: above(&u) / above(&vec![1.0; u.len()]),
             flow_rate: divided.integral(&u, 0..mesh.rows),
             grains: divided.integral(&w, 0..mesh.bed_rows),
             u_max,

@@ -10,6 +10,7 @@ use super::newton::{self, Stalled};
 use super::numbers::Numbers;
 use super::solve::Solution;
 use crate::closures::regularisation::{Regularisation, Smoothing};
+use crate::models::premises::{self, outside};
 use crate::models::section::{Contents, DuctFlow, Method, Outline};
 use crate::result::Field;
 use crate::result::{
@@ -109,7 +110,7 @@ pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outco
         series,
         results,
         balances,
-        validity: validity(flow),
+        validity: validity(flow, &numbers),
         regularisation,
         field: Some(field),
         ..Outcome::stopped()
@@ -283,19 +284,23 @@ fn field(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Field {
     Field { across, up, places: (0..divided.mesh.nodes()).map(place).collect(), columns }
 }
 
-fn validity(flow: &DuctFlow) -> Vec<Validity> {
-    let Contents::Bed(bed) = &flow.contents else { return Vec::new() };
+/// Laws used outside their range, and a flow that is not laminar in the gap: over the bed, and between the side walls where
+/// those are nearer.
+fn validity(flow: &DuctFlow, numbers: &Numbers) -> Vec<Validity> {
+    let (rho, height) = match &flow.contents {
+        Contents::Bingham { rho, .. } => (*rho, 1.0),
+        Contents::Bed(bed) => (bed.rho_f, 1.0 - bed.h_p / bed.h),
+    };
+    let gap = match flow.outline {
+        Outline::Rectangle { width } => height.min(width),
+        Outline::Circle | Outline::Planes => height,
+    };
+    let velocity = numbers.clear * flow.shear_scale() * flow.h;
+    let turbulent = premises::laminar(rho * velocity * gap * flow.h / flow.viscosity());
+    let Contents::Bed(bed) = &flow.contents else { return turbulent.into_iter().collect() };
     let info = bed.viscosity.info();
-    let outside = info.ranges.iter().filter(|range| !range.contains(bed.phi));
-    outside
-        .map(|range| Validity {
-            closure: format!("{}/{}", info.family, info.law),
-            variable: range.variable.into(),
-            value: bed.phi,
-            range: range.to_string(),
-            z_m: None,
-        })
-        .collect()
+    let name = || format!("{}/{}", info.family, info.law);
+    info.ranges.iter().filter_map(|range| outside(name(), range, bed.phi)).chain(turbulent).collect()
 }
 
 /// The equations that are solved, with their numbers.

@@ -53,11 +53,11 @@ pub struct SheetFlowTable {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
     pub u_star: Option<f64>,
-    /// Drive: slope, as slope_definition says.
+    /// Drive: slope, as slope_definition says, or an angle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
     pub slope: Option<f64>,
-    /// What the number given as slope is.
+    /// What the number given as slope is. With a slope such as "2 deg" it is the angle.
     #[serde(default = "sine")]
     pub slope_definition: SlopeDefinition,
     /// Acceleration of gravity.

@@ -14,8 +14,9 @@ use crate::closures::friction::mu_i;
 use crate::closures::lid::{Lid, colebrook_white};
 use crate::closures::suspension::{Suspension, rouse};
 use crate::closures::{Info, Range};
-use crate::models::exact::bed_results::{closure_name, outside};
+use crate::models::exact::bed_results::closure_name;
 use crate::models::exact::{balance, outcome};
+use crate::models::premises::outside;
 use crate::models::sheet_flow::{BedReading, SheetFlow, SheetMethod};
 use crate::result::{Balance, Failure, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q};
 

@@ -13,8 +13,9 @@ use super::steady;
 use super::system::{Column, Spacing};
 use crate::closures::friction::mu_i;
 use crate::closures::kinetic::{Granular, garzo_dufty};
-use crate::models::exact::bed_results::{closure_name, outside};
+use crate::models::exact::bed_results::closure_name;
 use crate::models::exact::{balance, outcome};
+use crate::models::premises::outside;
 use crate::models::two_fluid::{State, TwoFluid};
 use crate::result::{Balance, Failure, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q};
 

@@ -1,7 +1,7 @@
 //! What is fitted: positive numbers of a case, by their logarithms, within bounds.
 
 use super::{Listening, MISFIT, Request, Target, report};
-use crate::case::nearest;
+use crate::case::{Case, nearest};
 use crate::model::Registry;
 use crate::numerics::least_squares::{self, Fit};
 use crate::result::Context;
@@ -14,6 +14,7 @@ pub struct Parameters {
     registry: Registry,
     case: String,
     overrides: Vec<String>,
+    read: Case,
     /// `table.key`
     pub keys: Vec<String>,
     /// the shortest endings of the keys that tell them apart
@@ -46,10 +47,10 @@ impl Parameters {
         let apart =
             |key: &str| ["case.", "check.", "limit.", "grid.", "solver.", "output."].iter().any(|t| key.starts_with(t));
         numbers.retain(|(key, _)| !apart(key));
-        let (case, overrides) = (request.case.clone(), request.overrides.clone());
+        let (name, overrides) = (request.case.clone(), request.overrides.clone());
         let (keys, names, start) = (Vec::new(), Vec::new(), Vec::new());
         let registry = registry.clone();
-        let mut all = Self { registry, case, overrides, keys, names, start, bounds: Vec::new() };
+        let mut all = Self { registry, case: name, overrides, read: case, keys, names, start, bounds: Vec::new() };
         for argument in &request.fit {
             let (key, range) = argument.split_once('=').map_or((argument.as_str(), None), |(k, r)| (k, Some(r)));
             let (key, start) = find(key.trim(), &numbers, &others).map_err(|refused| bad(argument, refused))?;
@@ -106,7 +107,7 @@ impl Parameters {
     /// What is set in the case for these logarithms.
     #[must_use]
     pub fn settings(&self, ln: &[f64]) -> Vec<String> {
-        self.keys.iter().zip(self.values(ln)).map(|(key, value)| format!("{key}={value:e}")).collect()
+        self.keys.iter().zip(self.values(ln)).map(|(key, value)| self.read.setting(key, value)).collect()
     }
 
     /// The profile of the case with these logarithms.

@@ -1,0 +1,98 @@
+//! What a model assumes of its flow is checked against the flow that it finds.
+
+use bedload::case::CaseError;
+use bedload::model::Checked;
+use bedload::result::{Outcome, quantity as q};
+
+use crate::support::{Scratch, load, parse, run};
+
+/// A laminar bed in water, as the closed form and as the solver take it.
+const IN_WATER: &str = r#"
+format = 1
+case.title = "A laminar bed far beyond laminar flow"
+fluid = { density = "1070 kg/m3", viscosity = "1e-3 Pa s" }
+grains = { diameter = "2 mm", density = "1190 kg/m3" }
+bed = { level = "32.24 mm", phi = 0.6 }
+flow = { height = "65 mm", pressure_gradient = "100 Pa/m" }
+model = { MODEL form = "mixed" }
+closures.friction = { law = "coulomb", mu_s = 0.32 }
+closures.mixture_viscosity.law = "clear"
+"#;
+
+fn solved(case: Result<Checked, CaseError>) -> Outcome {
+    let (_, problem) = case.unwrap_or_else(|error| panic!("{}", error.render(false)));
+    run(&problem).unwrap()
+}
+
+/// The bulk Reynolds number that is flagged.
+fn flagged(outcome: &Outcome) -> Option<f64> {
+    let of = outcome.validity.iter().find(|v| v.closure == "flow/laminar")?;
+    assert_eq!((of.variable.as_str(), of.range.as_str(), of.z_m), ("Re", "Re <= 2000", None));
+    Some(of.value)
+}
+
+fn shipped(name: &str, sets: &[&str]) -> Outcome {
+    solved(load(name, sets))
+}
+
+#[test]
+fn a_laminar_bed_in_water_is_flagged_by_every_model_of_it() {
+    let models =
+        ["kind = \"exact\", solution = \"ouriemi\",", "kind = \"laminar\",", "kind = \"section\", solution = \"bed\","];
+    for model in models {
+        let mut text = IN_WATER.replace("MODEL", model);
+        if model.contains("section") {
+            text = text.replace("flow = {", "flow = { shape = \"planes\",");
+        }
+        let outcome = solved(parse("case", &text));
+        let found = flagged(&outcome).unwrap_or_else(|| panic!("{model} is not flagged"));
+        // The mean velocity over the gap times the gap over the viscosity, from the profile.
+        let profile = outcome.profile.unwrap();
+        let z = profile.axis();
+        let u: Vec<f64> = profile.get(&q::U_MIXTURE).unwrap().iter().map(|u| u.unwrap()).collect();
+        let over = |i: &usize| z[*i] >= 32.24e-3 - 1e-12;
+        let discharge: f64 = (0..z.len() - 1).filter(over).map(|i| 0.5 * (u[i] + u[i + 1]) * (z[i + 1] - z[i])).sum();
+        let reynolds = 1070.0 * discharge / 1e-3;
+        assert!((found / reynolds - 1.0).abs() < 5e-3, "{model}: {found} against {reynolds}");
+        assert!((3e5..5e5).contains(&found), "{model}: {found}");
+    }
+}
+
+#[test]
+fn other_laminar_flows_are_flagged_beyond_the_limit_alone() {
+    // The mean velocity is given: Re is 1 m/s 1 m/(1 Pa s) times the density.
+    for name in ["exact_1d_bingham", "bingham_1d_plane"] {
+        assert_eq!(flagged(&shipped(name, &[])), None, "{name}");
+        assert_eq!(flagged(&shipped(name, &["fluid.density=1999"])), None, "{name}");
+        let beyond = flagged(&shipped(name, &["fluid.density=2001"])).unwrap();
+        assert!((beyond - 2001.0).abs() < 1e-6, "{name}: {beyond}");
+    }
+    // A pressure gradient drives them: Re goes like 1/eta^2.
+    for name in ["section_2d_square", "section_2d_circle", "section_2d_square_bed"] {
+        assert_eq!(flagged(&shipped(name, &[])), None, "{name}");
+        let at = |eta: f64| shipped(name, &["grid.cells=8", &format!("fluid.viscosity={eta:e}")]);
+        let thin = at(1e-4);
+        let (reynolds, reported) = (flagged(&thin).unwrap(), thin.results.get(q::REYNOLDS.name).unwrap());
+        if name.ends_with("bed") {
+            // On the gap, not on the height with the bed in it.
+            assert!((0.9..1.1).contains(&(reported / reynolds)), "{name}: {reported} {reynolds}");
+        } else {
+            assert!((reported / reynolds - 1.0).abs() < 1e-3, "{name}: {reported} {reynolds}");
+        }
+        let eta = |wanted: f64| 1e-4 * (reynolds / wanted).sqrt();
+        assert_eq!(flagged(&at(eta(1999.0))), None, "{name}");
+        assert!((flagged(&at(eta(2001.0))).unwrap() - 2001.0).abs() < 0.1, "{name}");
+    }
+}
+
+#[test]
+fn a_person_reads_of_it() {
+    let scratch = Scratch::new();
+    let case = IN_WATER.replace("MODEL", "kind = \"exact\", solution = \"ouriemi\",");
+    scratch.write("water.toml", case);
+    let said = scratch.bedload(["run", "water.toml"]).exits(0).out;
+    assert!(said.contains("outside range    flow/laminar: Re = ") && said.contains("(Re <= 2000)"), "{said}");
+    assert!(scratch.read("runs/water/report.html").contains("flow/laminar"));
+    let slow = scratch.bedload(["run", "exact_1d_ouriemi"]).exits(0).out;
+    assert!(!slow.contains("flow/laminar"), "{slow}");
+}
