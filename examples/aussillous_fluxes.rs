@@ -7,9 +7,9 @@
 use std::error::Error;
 use std::path::Path;
 
-use bedload::model::Context;
 use bedload::models;
 use bedload::plot::{Axis, Curve, Dash, Figure, Marker, Panel, png};
+use bedload::result::Context;
 
 /// Thickness of the bed in diameters: more than moves in any run.
 const BED: f64 = 20.0;

@@ -22,7 +22,7 @@
 //! | [`cli`] | the command line, one file per verb |
 //!
 //! ```
-//! use bedload::{model::Context, models, result::Quiet};
+//! use bedload::{models, result::{Context, Quiet}};
 //!
 //! let set = ["flow.pressure_gradient=80 Pa/m".to_owned()];
 //! let (_, problem) = models::builtin().load("exact_1d_aussillous", &set).unwrap();

@@ -6,40 +6,22 @@
 mod planes;
 
 use std::error::Error;
-use std::io;
-use std::ops::ControlFlow;
 use std::path::Path;
 
-use bedload::model::Context;
 use bedload::models;
 use bedload::plot::{Axis, Curve, Dash, Figure, Level, Map, MapPanel, Marker, Panel, map_png, png, section_map};
-use bedload::result::{Outcome, Profile, Quantity, Snapshot, Watch, quantity as q};
+use bedload::result::Context;
+use bedload::result::{Outcome, Profile, Quantity, quantity as q};
 
 type Fallible<T> = Result<T, Box<dyn Error>>;
-
-/// Keeps the table of the section.
-#[derive(Default)]
-struct Keep(Vec<u8>);
-
-impl Watch for Keep {
-    fn see(&mut self, _: &Snapshot<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-    fn keep(&mut self, name: &str, _: bool, content: &mut dyn FnMut() -> Vec<u8>) -> io::Result<()> {
-        if name == "section.csv" {
-            self.0 = content();
-        }
-        Ok(())
-    }
-}
 
 /// Runs a shipped case with changes; its outcome and its table.
 fn run(case: &str, settings: &[&str]) -> Fallible<(Outcome, Vec<u8>)> {
     let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
     let (_, problem) = models::builtin().load(case, &settings).map_err(|e| e.render(false))?;
-    let mut keep = Keep::default();
-    let outcome = problem.run(&mut Context::new(&mut keep)).map_err(|failure| failure.error.to_string())?;
-    Ok((outcome, keep.0))
+    let outcome = Context::quiet(|context| problem.run(context)).map_err(|failure| failure.error.to_string())?;
+    let table = outcome.field.as_ref().map(|field| field.csv().into_bytes()).unwrap_or_default();
+    Ok((outcome, table))
 }
 
 fn column(profile: &Profile, quantity: &'static Quantity) -> Vec<Option<f64>> {

@@ -9,7 +9,8 @@ mod laminar;
 mod turbulent;
 
 use crate::case::CaseError;
-use crate::model::{self, Context, Flow, Offer, Registry, TermTest};
+use crate::model::{self, Flow, Offer, Registry, TermTest};
+use crate::result::Context;
 
 use crate::result::quantity as q;
 use crate::result::{Failure, Results};

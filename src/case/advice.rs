@@ -26,7 +26,7 @@ impl Fault {
             Self::NoRoomForFlow { height, .. } => Some(format!("more than 0 and less than {height} m")),
             Self::Floating { fluid, .. } => Some(format!("more than {fluid} kg/m3")),
             Self::Jammed { phi_max, .. } => Some(format!("less than {phi_max}")),
-            Self::PackedBeyond { bed, .. } => Some(format!("at least {bed}; below_packed = \"published\"")),
+            Self::PackedBeyond { bed, .. } => Some(format!("at least {bed}; no below_packed = \"zero\"")),
             Self::ThinnerThanAGrain { diameter, .. } => Some(format!("at least {diameter} m")),
             Self::FrictionFalls { mu_s, .. } => Some(format!("more than {mu_s}")),
             Self::TooSteep { definition: "sine", .. } => Some("less than 1".into()),

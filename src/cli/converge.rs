@@ -28,9 +28,9 @@ pub(super) struct Converge {
 /// [`converge::Over`] on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 enum Over {
-    /// Size of the regularisation of the yield stress, from 1e-1 to 1e-12, for each law
+    /// Size of the regularisation of the yield, decade by decade, for each law of the model
     Regularisation,
-    /// Number of cells, with a node on the yield level and without
+    /// Number of cells, for each kind of mesh that the model has
     Mesh,
 }
 
@@ -39,7 +39,7 @@ enum Over {
 enum Reference {
     /// The exact yield on the same mesh; the closed form for meshes
     Exact,
-    /// The smallest regularisation of each law; a mesh of twice the finest
+    /// The smallest regularisation of each law; a mesh finer than all others
     Finest,
 }
 

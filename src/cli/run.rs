@@ -2,7 +2,6 @@
 
 use std::fs;
 use std::io;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -11,11 +10,11 @@ use serde_json::Value;
 
 use super::progress::Progress;
 use super::{CaseArgs, CliError, Verb, answer, say};
+use crate::model::Problem;
 use crate::model::Registry;
-use crate::model::{Context, Problem};
 use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
-use crate::result::{Cost, Snapshot, Status, Summary, Watch, quantity};
-use crate::runtime::{cost::peak_memory_mb, pool};
+use crate::result::{Checkpoints, Context, Cost, Frames, Status, Summary, quantity};
+use crate::runtime::cost::peak_memory_mb;
 use crate::units::{readable, significant};
 
 /// Solve a case and write its folder: numbers, tables, report.
@@ -58,11 +57,10 @@ impl Verb for Run {
         let start = Instant::now();
         let (case, problem) = self.case.load(registry)?;
         // Listening begins before there is anything that Ctrl-C could leave half done.
-        let progress = Progress::new(self.quiet);
+        let mut progress = Progress::new(self.quiet);
         let out = self.out.unwrap_or_else(|| PathBuf::from("runs").join(&case.name));
         let mode = Mode { force: self.force, resume: self.resume };
         let checkpoint = if self.resume { Self::checkpoint(&out, &problem)? } else { None };
-        pool::want(usize::from(self.threads));
         let folder = Folder::prepare(&out, &case.resolved(), mode)?;
         let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
         let solving = Instant::now();
@@ -71,9 +69,11 @@ impl Verb for Run {
             folder.carry_over()?;
         }
         let between = (self.checkpoint > 0.0).then(|| Duration::from_secs_f64(self.checkpoint));
-        let mut keeper = Keeper { progress, folder: &folder, checkpoint, going_on, between, last: Instant::now() };
-        let result = problem.run(&mut Context::new(&mut keeper));
-        drop(keeper);
+        let mut keeper = Keeper { folder: &folder, checkpoint, going_on, between, last: Instant::now() };
+        let mut camera = Camera { folder: &folder, going_on };
+        let context = Context::new(&mut progress).threads(usize::from(self.threads));
+        let result = problem.run(&mut context.checkpoints(&mut keeper).frames(&mut camera));
+        drop(progress);
         let solve_s = solving.elapsed().as_secs_f64();
         let cost = Cost {
             solve_s,
@@ -117,9 +117,8 @@ fn seconds(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "a number of seconds from 0 to 1e9".into())
 }
 
-/// Shows the progress, and keeps the files of the run as they come.
+/// Keeps the states of the run in its folder as they come.
 struct Keeper<'a> {
-    progress: Progress,
     folder: &'a Folder,
     checkpoint: Option<Vec<u8>>,
     going_on: bool,
@@ -128,24 +127,31 @@ struct Keeper<'a> {
     last: Instant,
 }
 
-impl Watch for Keeper<'_> {
-    fn see(&mut self, snapshot: &Snapshot<'_>) -> ControlFlow<()> {
-        self.progress.see(snapshot)
-    }
-
-    fn keep(&mut self, name: &str, now: bool, content: &mut dyn FnMut() -> Vec<u8>) -> io::Result<()> {
+impl Checkpoints for Keeper<'_> {
+    fn keep(&mut self, now: bool, content: &mut dyn FnMut() -> Vec<u8>) -> io::Result<()> {
         if !now && self.between.is_none_or(|between| self.last.elapsed() < between) {
             return Ok(());
         }
         let bytes = content();
-        if name == CHECKPOINT {
-            self.last = Instant::now();
-        }
-        self.folder.write_on_the_way(name, &bytes, self.going_on).map_err(io::Error::other)
+        self.last = Instant::now();
+        self.folder.write_on_the_way(CHECKPOINT, &bytes, self.going_on).map_err(io::Error::other)
     }
 
-    fn resumed(&mut self, name: &str) -> Option<Vec<u8>> {
-        if name == CHECKPOINT { self.checkpoint.take() } else { None }
+    fn resumed(&mut self) -> Option<Vec<u8>> {
+        self.checkpoint.take()
+    }
+}
+
+/// Writes the frames of the run into its folder.
+struct Camera<'a> {
+    folder: &'a Folder,
+    going_on: bool,
+}
+
+impl Frames for Camera<'_> {
+    fn take(&mut self, number: u64, content: &mut dyn FnMut() -> String) -> io::Result<()> {
+        let name = format!("grains_{number:05}.vtp");
+        self.folder.write_on_the_way(&name, content().as_bytes(), self.going_on).map_err(io::Error::other)
     }
 }
 

@@ -8,16 +8,14 @@ use super::checkpoint::{Reader, Writer};
 use super::domain::Domain;
 use super::engine::{Engine, Settings};
 use super::grains::Grain;
-use super::keep::{law, threads, unwritable};
+use super::keep::{law, unwritable};
 use super::law::LinearSpring;
 use super::{pack, stability};
 use crate::dem::Bottom;
 use crate::dem::GrainBed;
 use crate::result::CheckpointError;
-use crate::result::{Snapshot, SolveError, Watch};
+use crate::result::{Context, Snapshot, SolveError};
 
-/// Name of the state from which a run goes on.
-pub const CHECKPOINT: &str = "checkpoint.bin";
 /// Steps between two looks at the clock, the checkpoint and the wish to stop.
 pub const BETWEEN: u64 = 64;
 /// Kinetic energy per grain over m g d below which a bed has come to rest.
@@ -86,7 +84,7 @@ pub struct Deposit<'a> {
 pub fn deposit(
     what: Deposit<'_>,
     mut half_way: Option<(Stage, Engine<LinearSpring>)>,
-    watch: &mut dyn Watch,
+    context: &mut Context<'_>,
 ) -> Result<ControlFlow<(), Engine<LinearSpring>>, SolveError> {
     let Deposit { bed, fixed, .. } = what;
     let mut taken = |wanted: Stage| half_way.take_if(|(stage, _)| *stage == wanted).map(|(_, engine)| engine);
@@ -101,9 +99,9 @@ pub fn deposit(
                 let few = GrainBed { mobile, ..*bed };
                 let engine = match taken(Stage::Below) {
                     Some(engine) => engine,
-                    None => begin(bed, Stage::Below, &pack::cloud(&few, 0.0))?,
+                    None => begin(bed, Stage::Below, &pack::cloud(&few, 0.0), context.threads)?,
                 };
-                let ControlFlow::Continue(below) = settle(what, Stage::Below, engine, watch)? else {
+                let ControlFlow::Continue(below) = settle(what, Stage::Below, engine, context)? else {
                     return Ok(ControlFlow::Break(()));
                 };
                 grains = pack::slice(&below.grains().listed(), 2.5 * bed.d, bed.d);
@@ -115,21 +113,21 @@ pub fn deposit(
                 Bottom::Slice => bed.d,
             };
             grains.extend(pack::cloud(bed, floor));
-            begin(bed, Stage::Falling, &grains)?
+            begin(bed, Stage::Falling, &grains, context.threads)?
         }
     };
-    settle(what, Stage::Falling, engine, watch)
+    settle(what, Stage::Falling, engine, context)
 }
 
 /// Grains that are about to fall.
-fn begin(bed: &GrainBed, stage: Stage, grains: &[Grain]) -> Result<Engine<LinearSpring>, SolveError> {
+fn begin(bed: &GrainBed, stage: Stage, grains: &[Grain], threads: usize) -> Result<Engine<LinearSpring>, SolveError> {
     let law = law(&bed.contact)?;
     let mass = 0.5 * bed.mass();
     let derived = (FALLING * stability::of_pair(&law, mass)).min(DAMPED * stability::of_packing(&law, mass));
     let dt = bed.discrete.time_step.unwrap_or(f64::INFINITY).min(derived);
     let lowest = grains.iter().map(|g| g.position[2]).fold(0.0, f64::min) - 2.0 * bed.d;
     let settings = Settings { skin: bed.discrete.skin * bed.d, lowest, ..Settings::new(dt, [0.0, 0.0, -bed.g], bed.d) };
-    Ok(Engine::new(grains, stage.domain(bed), law, settings, threads())?)
+    Ok(Engine::new(grains, stage.domain(bed), law, settings, threads)?)
 }
 
 /// Lets grains fall until they rest.
@@ -137,7 +135,7 @@ fn settle(
     Deposit { bed, name, .. }: Deposit<'_>,
     stage: Stage,
     mut engine: Engine<LinearSpring>,
-    watch: &mut dyn Watch,
+    context: &mut Context<'_>,
 ) -> Result<ControlFlow<(), Engine<LinearSpring>>, SolveError> {
     let mobile = (0..engine.grains().len()).filter(|&i| !engine.grains().is_fixed(i)).count();
     let mass = bed.mass();
@@ -158,14 +156,14 @@ fn settle(
         }
         let fraction = engine.steps() as f64 / most as f64;
         let said = pace("falling", engine.steps() - begun, clock, most.saturating_sub(engine.steps()));
-        let stop = watch.see(&Snapshot { stage: &said, fraction, quantity: None }).is_break();
+        let stop = context.watch.see(&Snapshot { stage: &said, fraction, quantity: None }).is_break();
         let mut content = || {
             let mut to = Writer::default();
             to.whole(stage.number());
             engine.save(&mut to);
             to.seal(name)
         };
-        watch.keep(CHECKPOINT, stop, &mut content).map_err(|error| unwritable(&error))?;
+        context.keep(stop, &mut content).map_err(|error| unwritable(&error))?;
         if stop {
             return Ok(ControlFlow::Break(()));
         }

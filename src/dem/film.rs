@@ -15,9 +15,6 @@ const PLACES: usize = 480_000;
 /// Most grains; the nearest to the viewer stay.
 const GRAINS: usize = 10_000;
 
-/// File of a film.
-pub const FILE: &str = "motion.json";
-
 /// A film in takes: when one is full the next one begins, and the last full one is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
@@ -100,9 +97,9 @@ impl Film {
         seen.into_iter().map(|i| grains.ids[i]).collect()
     }
 
-    /// The last full take as the content of [`FILE`], or the first one as far as it is; none of fewer than two pictures.
+    /// The last full take, or the first one as far as it is; none of fewer than two pictures.
     #[must_use]
-    pub fn file(&self) -> Option<Vec<u8>> {
+    pub fn animation(&self) -> Option<Motion> {
         let take = if self.full.pictures() > 0 { &self.full } else { &self.now };
         let motion = Motion {
             format: Motion::FORMAT,
@@ -117,7 +114,7 @@ impl Film {
             top_m: self.heights[1],
             places: base64(take.places.iter().flat_map(|place| place.to_le_bytes())),
         };
-        if motion.is_sound() { serde_json::to_vec(&motion).ok() } else { None }
+        motion.is_sound().then_some(motion)
     }
 
     /// Writes it into a checkpoint.
@@ -184,7 +181,7 @@ mod tests {
     fn the_last_full_take_is_shown_and_a_checkpoint_changes_nothing() {
         let mut film = film();
         film.see(&grains(0.5), 0.0);
-        assert_eq!(film.file(), None, "one picture is no film");
+        assert_eq!(film.animation(), None, "one picture is no film");
         for k in 1..250 {
             film.see(&grains(0.5), f64::from(k));
             let mut to = Writer::default();
@@ -195,7 +192,7 @@ mod tests {
             from.close().unwrap();
             assert!(Film::restore(&mut Reader::open(&bytes, &[1; 32]).unwrap(), 1).is_err());
         }
-        let motion: Motion = serde_json::from_slice(&film.file().unwrap()).unwrap();
+        let motion: Motion = film.animation().unwrap();
         assert_eq!((motion.pictures, motion.grains, motion.begin_s), (MOST, 2, 120.0));
     }
 

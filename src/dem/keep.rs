@@ -1,18 +1,9 @@
-//! What every run of grains shares: the law of its case, its threads, the files it offers.
+//! What every run of grains shares: the law of its case, and why its files cannot be used.
 
-use super::deposit::CHECKPOINT;
-use super::film::{self, Film};
-use super::grains::Grains;
 use super::law::LinearSpring;
-use super::picture;
 use crate::closures::contact::{self, Tension, restitution};
-use crate::result::{CheckpointError, SolveError, Watch};
+use crate::result::{CheckpointError, SolveError};
 use crate::units::significant;
-
-/// Threads: what the system offers, since they change no bit.
-pub fn threads() -> usize {
-    crate::runtime::pool::wanted()
-}
 
 /// The law of the case.
 ///
@@ -28,22 +19,12 @@ pub fn law(contact: &contact::LinearSpring) -> Result<LinearSpring, SolveError> 
     })
 }
 
-/// Offers what the report shows of the grains: where they are, and how they got there.
-pub fn keep_pictures(grains: &Grains, film: &Film, watch: &mut dyn Watch) -> Result<(), SolveError> {
-    let mut side = || picture::side_view(grains).into_bytes();
-    watch.keep("grains.csv", true, &mut side).map_err(|error| unwritable(&error))?;
-    match film.file() {
-        Some(file) => watch.keep(film::FILE, true, &mut || file.clone()).map_err(|error| unwritable(&error)),
-        None => Ok(()),
-    }
-}
-
 /// A checkpoint that cannot be used.
 #[must_use]
 pub fn refused(error: CheckpointError) -> SolveError {
     SolveError::Grains {
         code: "checkpoint",
-        message: format!("{CHECKPOINT} cannot be used: {error}"),
+        message: format!("the checkpoint cannot be used: {error}"),
         hint: "--force starts again",
     }
 }

@@ -15,6 +15,7 @@ pub mod checkpoint;
 pub mod contacts;
 pub mod deposit;
 pub mod domain;
+pub mod drive;
 pub mod engine;
 pub mod error;
 pub mod film;

@@ -123,15 +123,7 @@ impl Means {
 /// An outcome without anything.
 #[must_use]
 pub fn nothing(status: Status) -> Outcome {
-    Outcome {
-        status,
-        profile: None,
-        series: None,
-        results: Results::default(),
-        balances: Vec::new(),
-        validity: Vec::new(),
-        regularisation: serde_json::Map::new(),
-    }
+    Outcome { status, ..Outcome::stopped() }
 }
 
 /// Everything that a bed has to say.

@@ -1,8 +1,9 @@
-//! The grains as files: for ParaView, and as the table from which the report draws them.
+//! The grains as a frame for ParaView, and as what the report draws of them.
 
 use std::fmt::Write;
 
 use super::grains::{Grains, Point};
+use crate::result::SideView;
 
 /// A frame of grains as VTK poly data in text: radius, velocity, angular velocity, whether fixed, name.
 #[must_use]
@@ -41,18 +42,15 @@ pub fn vtp(grains: &Grains, time: f64) -> String {
 
 /// Grains of one slice along the flow, two diameters deep across it: enough to draw a side view.
 #[must_use]
-pub fn side_view(grains: &Grains) -> String {
+pub fn side_view(grains: &Grains) -> SideView {
     let nearest = (0..grains.len()).map(|i| grains.position(i)[1]).fold(f64::INFINITY, f64::min);
     let depth = nearest + 4.0 * grains.largest_radius();
-    let mut text = String::from("x_m,z_m,radius_m,u_particle_m_s\n");
     // The nearest last: it hides what is behind it.
     let mut places = grains.places();
     places.sort_by(|&a, &b| grains.position(b)[1].total_cmp(&grains.position(a)[1]));
-    for i in places {
+    let seen = |i: usize| {
         let ([x, y, z], [u, _, _]) = (grains.position(i), grains.velocity(i));
-        if y <= depth {
-            let _ = writeln!(text, "{x:e},{z:e},{:e},{u:e}", grains.radius(i));
-        }
-    }
-    text
+        (y <= depth).then(|| [x, z, grains.radius(i), u])
+    };
+    SideView { grains: places.into_iter().filter_map(seen).collect() }
 }

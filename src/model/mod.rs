@@ -7,7 +7,6 @@
 //! Everything above this module, the studies and the command line, knows these traits and never one model. A model is written
 //! with its own types ([`Model`]) and loses them once a run ([`Solve`] is object-safe).
 
-mod context;
 mod offer;
 mod problem;
 mod registry;
@@ -18,9 +17,8 @@ use std::fmt::Debug;
 
 use crate::case::{Fault, Tables};
 use crate::closures::Info;
-use crate::result::{CheckpointError, Failure, Outcome};
+use crate::result::{CheckpointError, Context, Failure, Outcome};
 
-pub use context::Context;
 pub use offer::{BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, PACKED, Term, TermTest, TurbulentScene};
 pub use problem::{Checked, Problem};
 pub use registry::{Entry, Registry, checked, read};
@@ -85,6 +83,11 @@ pub trait Solve: Any + Debug + Send + Sync {
         Ok(None)
     }
 
+    /// Which way a steady drive pulls the fluid; `None` for a flow without one, and for one that looks for itself.
+    fn drive(&self) -> Option<SteadyDrive> {
+        None
+    }
+
     /// What studies may vary: what it converges over, and the ladder of its settings.
     fn study(&self) -> StudyPlan {
         StudyPlan::default()
@@ -106,6 +109,25 @@ pub trait Solve: Any + Debug + Send + Sync {
     /// [`CheckpointError`]: it is of another case, another version, or damaged.
     fn accepts(&self, _checkpoint: &[u8]) -> Option<Result<(), CheckpointError>> {
         None
+    }
+}
+
+/// A steady drive along x: the mean velocity of the fluid is not against it.
+#[derive(Clone, Copy, Debug)]
+pub struct SteadyDrive {
+    /// unit of the velocity, of which round-off may leave a part where nothing moves [m/s]
+    pub velocity_scale: f64,
+    /// time at which the flow is looked at [s]; `None` for a steady one
+    pub at_s: Option<f64>,
+    /// what a user can change where the fluid goes the other way
+    pub hint: &'static str,
+}
+
+impl SteadyDrive {
+    /// The drive of a steady flow.
+    #[must_use]
+    pub fn of(velocity_scale: f64, hint: &'static str) -> Self {
+        Self { velocity_scale, at_s: None, hint }
     }
 }
 

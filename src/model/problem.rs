@@ -3,13 +3,16 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::{Context, Description, Solve};
+use super::{Description, Solve, SteadyDrive};
 use crate::case::checks::Class;
 use crate::case::{Case, Fault};
-use crate::result::{Failure, Outcome, quantity};
+use crate::result::{Context, Failure, Outcome, Profile, SolveError, Status, quantity as q};
 
 /// Relative residual of a balance from which on a result has lost its digits: it is round-off otherwise.
 const LARGEST_IMBALANCE: f64 = 1e-3;
+
+/// Mean velocity against the drive, over the velocity scale of the model, that round-off may leave where nothing moves.
+const AT_REST: f64 = 1e-9;
 
 /// A checked problem.
 #[derive(Clone, Debug)]
@@ -33,12 +36,17 @@ impl Problem {
         Self { name: case.name.clone(), title: case.about().title.clone(), kind: case.model, stochastic, solver }
     }
 
-    /// Solves it. A result that is not a finite number is a failure, and so is a balance that does not close.
+    /// Solves it. A result that is not a finite number is a failure, and so are a balance that does not close and a mean flow
+    /// against a steady drive.
     ///
     /// # Errors
     /// [`Failure`]: why the method failed, with the numbers that say so and the last good state.
     pub fn run(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
-        self.solver.solve(context)?.trusted(LARGEST_IMBALANCE)
+        let outcome = self.solver.solve(context)?.trusted(LARGEST_IMBALANCE)?;
+        match self.solver.drive().and_then(|drive| uphill(&drive, &outcome)) {
+            None => Ok(outcome),
+            Some(error) => Err(Failure { error, last: Some(Box::new(outcome)) }),
+        }
     }
 
     /// Its equations and laws.
@@ -90,9 +98,9 @@ pub(super) fn checks(case: &Case, faults: &mut Vec<(String, Fault)>) {
     }
     for (i, check) in case.checks().iter().enumerate() {
         let column = check.quantity.strip_prefix("profile.");
-        let list = if column.is_some() { quantity::COLUMNS } else { quantity::RESULTS };
+        let list = if column.is_some() { q::COLUMNS } else { q::RESULTS };
         let name = column.unwrap_or(&check.quantity);
-        if quantity::find(list, name).is_none() {
+        if q::find(list, name).is_none() {
             let nearest = crate::case::nearest(name, list.iter().map(|q| q.name));
             let prefix = if column.is_some() { "profile." } else { "" };
             let fault = Fault::UnknownQuantity {
@@ -104,5 +112,73 @@ pub(super) fn checks(case: &Case, faults: &mut Vec<(String, Fault)>) {
             let fault = Fault::CheckLevel { name: check.quantity.clone(), column: column.is_some() };
             faults.push((format!("check.{i}.quantity"), fault));
         }
+    }
+}
+
+/// Why a flow under a steady drive is none: it goes the other way.
+fn uphill(drive: &SteadyDrive, outcome: &Outcome) -> Option<SolveError> {
+    let against = |u: &f64| outcome.status == Status::Done && *u < -AT_REST * drive.velocity_scale;
+    let velocity_m_s = mean_velocity(outcome).filter(against)?;
+    Some(SolveError::FlowsUphill { velocity_m_s, over_s: drive.at_s.map(|at| [at; 2]), hint: drive.hint })
+}
+
+/// Mean velocity of the fluid over its height [m/s]: as reported, from its discharge, or from its profile.
+fn mean_velocity(outcome: &Outcome) -> Option<f64> {
+    let result = |quantity: &q::Quantity| outcome.results.get(quantity.name);
+    let discharge = || Some(result(&q::FLUID_DISCHARGE)? / result(&q::FLOW_HEIGHT)?);
+    result(&q::MEAN_VELOCITY).or_else(discharge).or_else(|| over_height(outcome.profile.as_ref()?))
+}
+
+/// Mean of the velocity of the mixture between the lowest and the highest level, by the trapezoidal rule [m/s].
+fn over_height(profile: &Profile) -> Option<f64> {
+    let (z, u) = (profile.axis(), profile.get(&q::U_MIXTURE)?);
+    let known: Vec<(f64, f64)> = z.iter().zip(u).filter_map(|(z, u)| Some((*z, (*u)?))).collect();
+    let height = known.last()?.0 - known.first()?.0;
+    let sum: f64 = known.windows(2).map(|pair| 0.5 * (pair[1].0 - pair[0].0) * (pair[0].1 + pair[1].1)).sum();
+    (height > 0.0).then(|| sum / height)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::models::builtin;
+
+    fn drive(case: &str) -> Option<SteadyDrive> {
+        builtin().load(case, &[]).unwrap().1.solver().drive()
+    }
+
+    #[test]
+    fn a_mean_flow_against_a_steady_drive_is_a_failure_and_a_wave_is_none() {
+        let (_, problem) = builtin().load("sheet_1d_theta06", &[]).unwrap();
+        let steady = drive("sheet_1d_theta06").unwrap();
+        let mut outcome = Context::quiet(|context| problem.run(context)).unwrap();
+        assert!(mean_velocity(&outcome).unwrap() > 0.5, "{:?}", mean_velocity(&outcome));
+        assert_eq!(uphill(&steady, &outcome), None);
+        let column = |sign: f64| {
+            let profile = outcome.profile.as_ref().unwrap();
+            let mut turned = Profile::new(profile.axis()).unwrap();
+            let u = profile.get(&q::U_MIXTURE).unwrap();
+            turned.push(&q::U_MIXTURE, u.iter().map(|u| u.map(|u| sign * u)).collect()).unwrap();
+            turned
+        };
+        let (turned, kept) = (column(-1.0), column(1.0));
+        outcome.profile = Some(kept);
+        assert_eq!(uphill(&steady, &outcome), None);
+        outcome.profile = Some(turned);
+        let error = uphill(&steady, &outcome).unwrap();
+        assert_eq!(error.code(), "flows-uphill");
+        assert!(error.to_string().contains("against the drive"), "{error}");
+        // A discharge stands before a profile.
+        outcome.results.set(&q::FLUID_DISCHARGE, -0.25 * outcome.results.get(q::FLOW_HEIGHT.name).unwrap());
+        for (case, at) in
+            [("kinetic_1d_start", Some("at t = ")), ("kinetic_1d_theta06", Some("-0.25")), ("kinetic_1d_waves", None)]
+        {
+            let message = drive(case).and_then(|drive| uphill(&drive, &outcome)).map(|error| error.to_string());
+            assert_eq!(message.is_some(), at.is_some(), "{case}: {message:?}");
+            assert!(message.unwrap_or_default().contains(at.unwrap_or_default()), "{case}");
+        }
+        // A run that was stopped is judged by nobody.
+        outcome.status = Status::Stopped;
+        assert_eq!(uphill(&steady, &outcome), None);
     }
 }

@@ -105,6 +105,8 @@ pub struct Sizes {
     pub creep: bool,
     /// a published rule for the size
     pub rule: Option<Rule>,
+    /// what else a reader has to know: label and text
+    pub remarks: &'static [(&'static str, &'static str)],
 }
 
 /// A law of the smoothing.
@@ -208,6 +210,70 @@ impl Law {
         match self {
             Self::Logarithmic => "(λ/s) ln(s/λ)",
             Self::Linear => "λ/s",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::case::{Case, shipped};
+    use crate::model::Problem;
+    use crate::models::builtin;
+
+    /// The shipped cases that have something to refine.
+    fn cases() -> impl Iterator<Item = (&'static str, Focus)> {
+        let registry = builtin();
+        shipped::names().filter_map(move |name| {
+            let (_, problem) = registry.load(name, &[]).unwrap();
+            Some((name, problem.solver().study().focus?))
+        })
+    }
+
+    #[test]
+    fn every_case_accepts_what_its_model_says_of_its_study() {
+        let registry = builtin();
+        let load = |name: &str, changes: Vec<String>| -> (Case, Problem) {
+            registry.load(name, &changes).unwrap_or_else(|error| panic!("{name} {changes:?}: {error}"))
+        };
+        let mut seen = Vec::new();
+        for (name, focus) in cases() {
+            if let Some(sizes) = focus.sizes {
+                let (from, to) = sizes.decades;
+                for (law, decade) in sizes.laws.iter().flat_map(|law| [from, to].map(|decade| (law, decade))) {
+                    load(name, sizes.set(law, &format!("1e-{decade}")));
+                }
+                load(name, sizes.exactly());
+                assert!(sizes.shown.iter().chain([&sizes.slopes_from]).all(|size| *size <= 0.1 && *size >= 1e-10));
+            }
+            if let Some(meshes) = focus.meshes {
+                assert!(meshes.cells.is_sorted() && meshes.cells.last() < Some(&meshes.reference), "{name}");
+                for (_, kind) in meshes.kinds {
+                    for cells in meshes.cells.iter().chain([&meshes.reference]) {
+                        let (case, problem) = load(name, meshes.set(*cells, kind));
+                        assert_eq!(problem.cells(), *cells, "{name}");
+                        seen.push(case.model);
+                    }
+                }
+            }
+        }
+        seen.dedup();
+        seen.sort_unstable();
+        seen.dedup();
+        assert_eq!(seen.len(), 8, "{seen:?}");
+    }
+
+    #[test]
+    fn the_exact_yield_of_a_study_is_exact_whatever_the_case_says() {
+        let registry = builtin();
+        let text = |problem: &Problem| format!("{:?}", problem.solver());
+        for (name, focus) in cases() {
+            let Some(sizes) = focus.sizes.filter(|sizes| !sizes.exact.is_empty()) else { continue };
+            let smoothed = sizes.laws.first().map(|law| sizes.set(law, "1e-3")).unwrap_or_default();
+            let (_, with) = registry.load(name, &smoothed).unwrap();
+            let (_, exact) = registry.load(name, &[smoothed, sizes.exactly()].concat()).unwrap();
+            let (_, alone) = registry.load(name, &sizes.exactly()).unwrap();
+            assert!(text(&with) != text(&exact) && text(&exact) == text(&alone), "{name}");
         }
     }
 }

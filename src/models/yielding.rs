@@ -70,6 +70,7 @@ pub(super) const SCALED: Sizes = Sizes {
     slopes_from: 1e-4,
     creep: false,
     rule: None,
+    remarks: &[],
 };
 
 /// Multiples of 12, so that the cells of every layer double with the mesh.

@@ -11,7 +11,7 @@ use crate::result::Motion;
 pub const CHECKPOINT: &str = "checkpoint.bin";
 
 /// The film of the grains that the report plays.
-pub(super) const MOTION: &str = crate::dem::film::FILE;
+pub(super) const MOTION: &str = "motion.json";
 
 /// The film of a run, if its folder has one that is sound.
 pub(super) fn read_motion(place: &Path) -> Option<Motion> {

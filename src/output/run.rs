@@ -9,7 +9,7 @@ use serde_json::Map;
 use sha2::{Digest, Sha256};
 
 use super::folder::{Folder, OutputError, write_whole};
-use super::grains::read_motion;
+use super::grains::{MOTION, read_motion};
 use crate::case::Case;
 use crate::model::{Problem, Registry};
 use crate::plot::{self, Figure, Page};
@@ -160,8 +160,26 @@ fn write_body(
     if let Some(series) = outcome.and_then(|o| o.series.as_ref()) {
         folder.write("series.csv", |to| series.write_csv(to, &comments).map_err(as_io))?;
     }
+    if let Some(outcome) = outcome {
+        write_fields(folder, outcome)?;
+    }
     let case = fs::read_to_string(folder.place("case.toml")).unwrap_or_default();
     draw(&folder.place("."), folder.path(), summary, profile, problem, &case, png)
+}
+
+/// Fields, grains and animation: what the report draws besides the tables.
+fn write_fields(folder: &Folder, outcome: &Outcome) -> Result<(), OutputError> {
+    if let Some(field) = &outcome.field {
+        folder.write("section.csv", |to| to.write_all(field.csv().as_bytes()))?;
+        folder.write("section.vts", |to| to.write_all(field.vts().as_bytes()))?;
+    }
+    if let Some(grains) = &outcome.grains {
+        folder.write("grains.csv", |to| to.write_all(grains.csv().as_bytes()))?;
+    }
+    match &outcome.animation {
+        Some(animation) => folder.write(MOTION, |to| Ok(serde_json::to_writer(to, animation)?)),
+        None => Ok(()),
+    }
 }
 
 fn as_io(error: TableError) -> io::Error {

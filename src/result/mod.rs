@@ -2,6 +2,8 @@
 //! These are the only types that plots, reports, tables and comparisons accept.
 
 mod checkpoint;
+mod context;
+mod field;
 mod motion;
 mod outcome;
 mod provenance;
@@ -11,6 +13,8 @@ mod table;
 mod watch;
 
 pub use checkpoint::CheckpointError;
+pub use context::{Checkpoints, Context, Frames};
+pub use field::{Field, SideView};
 pub use motion::{Motion, base64};
 pub use outcome::{Failure, Outcome, SolveError};
 pub use provenance::Provenance;

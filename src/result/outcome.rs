@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::{Balance, Profile, Results, Series, Status, TableError, Validity};
+use super::{Balance, Field, Motion, Profile, Results, Series, SideView, Status, TableError, Validity};
 
 /// Everything that a run has to say, before it is written.
 #[derive(Clone, Debug)]
@@ -21,6 +21,12 @@ pub struct Outcome {
     pub validity: Vec<Validity>,
     /// every small number that the run used, by name
     pub regularisation: Map<String, Value>,
+    /// fields over a section
+    pub field: Option<Field>,
+    /// grains at the end, seen from the side
+    pub grains: Option<SideView>,
+    /// grains as they flowed, seen from the side
+    pub animation: Option<Motion>,
 }
 
 /// Why a method failed, with the numbers that say so.
@@ -208,6 +214,16 @@ pub enum SolveError {
         /// largest accepted magnitude
         limit: f64,
     },
+    /// A steady drive, and a fluid that flows against it.
+    #[error("the fluid flows uphill: its mean velocity is {velocity_m_s:.4} m/s, against the drive{}", when(*.over_s))]
+    FlowsUphill {
+        /// mean velocity of the fluid, negative [m/s]
+        velocity_m_s: f64,
+        /// time over which it is the mean [s]; `None` for a steady flow
+        over_s: Option<[f64; 2]>,
+        /// what a user can change
+        hint: &'static str,
+    },
     /// Grains that cannot go on.
     #[error("{message}")]
     Grains {
@@ -260,6 +276,7 @@ impl SolveError {
             Self::NotRepresentable { .. } => "not-representable",
             Self::Unbalanced { .. } => "unbalanced",
             Self::Inconsistent { .. } => "inconsistent",
+            Self::FlowsUphill { .. } => "flows-uphill",
             Self::Grains { code, .. } => code,
         }
     }
@@ -293,12 +310,17 @@ impl SolveError {
                 "take model.method = \"newton\", raise solver.iterations or solver.tolerance, or change grid.cells"
                     .into()
             }
-            Self::Grains { hint, .. } => (*hint).into(),
+            Self::Grains { hint, .. } | Self::FlowsUphill { hint, .. } => (*hint).into(),
             Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {
                 "this should not happen for a checked case: please report it with case.toml".into()
             }
         }
     }
+}
+
+fn when(over: Option<[f64; 2]>) -> String {
+    let Some([from, to]) = over else { return String::new() };
+    if from < to { format!(", from t = {from:.4} s to {to:.4} s") } else { format!(", at t = {to:.4} s") }
 }
 
 impl From<TableError> for SolveError {
@@ -323,6 +345,9 @@ impl Outcome {
             balances: Vec::new(),
             validity: Vec::new(),
             regularisation: Map::new(),
+            field: None,
+            grains: None,
+            animation: None,
         }
     }
 

@@ -1,6 +1,5 @@
 //! Watching a run: read-only snapshots, and the wish to stop.
 
-use std::io;
 use std::ops::ControlFlow;
 
 use super::Quantity;
@@ -20,20 +19,6 @@ pub struct Snapshot<'a> {
 pub trait Watch {
     /// Called between pieces of work. `Break` asks the run to end with what it has.
     fn see(&mut self, snapshot: &Snapshot<'_>) -> ControlFlow<()>;
-
-    /// Offers a file of the run, such as a checkpoint; `content` is asked for only where it is wanted: always if `now`,
-    /// else when enough time has passed since the last one.
-    ///
-    /// # Errors
-    /// Whatever keeps the file from being written.
-    fn keep(&mut self, _name: &str, _now: bool, _content: &mut dyn FnMut() -> Vec<u8>) -> io::Result<()> {
-        Ok(())
-    }
-
-    /// The file `name` of an unfinished run of the same case that is to go on.
-    fn resumed(&mut self, _name: &str) -> Option<Vec<u8>> {
-        None
-    }
 }
 
 /// Watches nothing and never stops.

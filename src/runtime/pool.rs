@@ -16,19 +16,6 @@ use std::thread::{self, JoinHandle};
 const SPINS: u32 = 4_000;
 const YIELDS: u32 = 2_000;
 
-static WANTED: AtomicUsize = AtomicUsize::new(1);
-
-/// Asks for `threads` threads in what is run from now on.
-pub fn want(threads: usize) {
-    WANTED.store(threads.max(1), Ordering::Relaxed);
-}
-
-/// The number of threads that was asked for, 1 at first.
-#[must_use]
-pub fn wanted() -> usize {
-    WANTED.load(Ordering::Relaxed)
-}
-
 type Job = *const (dyn Fn(usize) + Sync);
 
 struct Shared {

@@ -11,8 +11,8 @@ use std::path::Path;
 use serde_json::json;
 
 use super::converge::{Judge, error_text};
-use super::mesh::ClosedForm;
-use super::{Judgement, Plan, Point, Row, StudyError, ladder};
+use super::ladder::{KEY, rungs};
+use super::{Judgement, Plan, Point, Row, StudyError};
 use crate::model::{Problem, Registry};
 use crate::output::read_run;
 use crate::plot::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
@@ -83,10 +83,10 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
         return Err(StudyError::BadOver { argument: String::new(), reason: "there is no case".into() });
     };
     let (_, problem) = registry.load(first, &request.overrides).map_err(Box::new)?;
-    let mut points = accepted(registry, ladder::rungs(None, &problem), first, &request.overrides);
+    let mut points = accepted(registry, rungs(None, &problem), first, &request.overrides);
     for case in others {
         let (_, problem) = registry.load(case, &[]).map_err(Box::new)?;
-        let mut more = accepted(registry, ladder::rungs(Some(case), &problem), case, &[]);
+        let mut more = accepted(registry, rungs(Some(case), &problem), case, &[]);
         let alone = more.iter().all(|point| point.series == problem.kind);
         for point in &mut more {
             point.series = if alone { case.clone() } else { format!("{case}, {}", point.series) };
@@ -96,7 +96,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
     let (given, exact) = reference(request, &problem)?;
     if given.is_none()
         && exact.is_none()
-        && let Some((words, overrides)) = ladder::finest(&problem)
+        && let Some((words, overrides)) = problem.solver().study().finest
     {
         points.insert(0, Point { case: None, series: REFERENCE.into(), values: vec![words], overrides });
     }
@@ -108,7 +108,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
         case: first.clone(),
         overrides: request.overrides.clone(),
         options,
-        varied: vec![ladder::KEY.into()],
+        varied: vec![KEY.into()],
         points,
         repeats: REPEATS,
     };
@@ -132,7 +132,7 @@ struct Numbers(String, Value);
 fn reference(request: &Request, problem: &Problem) -> Result<(Option<Numbers>, Option<Numbers>), StudyError> {
     let bad = |argument: &str, reason: String| StudyError::BadReference { argument: argument.into(), reason };
     let exact = || {
-        let form = ClosedForm::of(problem)?;
+        let form = problem.solver().closed_form()?;
         Some(Numbers("the closed form".into(), Box::new(move |q| Some((form.results().get(q.name)?, None)))))
     };
     match request.reference.as_deref() {

@@ -1,16 +1,17 @@
 //! `converge`: the error against exact, finest or closed form, and its order.
 
-use super::errors::Focus;
 use super::{Judgement, Plan, Row, StudyError, mesh, regularisation};
+use crate::case::shipped;
+use crate::model::Focus;
 use crate::model::Registry;
 use crate::plot::{Curve, Dash, Marker};
 
 /// What is refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Over {
-    /// size of the regularisation of the yield stress, for each of its laws
+    /// size of the regularisation of the yield, for each of its laws
     Regularisation,
-    /// number of cells, with and without a node on the yield level
+    /// number of cells, for each kind of mesh that the model has
     Mesh,
 }
 
@@ -19,7 +20,7 @@ pub enum Over {
 pub enum Reference {
     /// the exact yield on the same mesh, or the closed form of the exact yield
     Exact,
-    /// the smallest regularisation of each law, or a mesh of twice the finest one
+    /// the smallest regularisation of each law, or a mesh finer than all others
     Finest,
 }
 
@@ -58,45 +59,64 @@ impl Over {
 /// [`StudyError::Case`], and [`StudyError::NoSuchSetting`] or [`StudyError::NoClosedForm`] for a model that has none.
 pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), StudyError> {
     let (case, problem) = registry.load(&request.case, &request.overrides).map_err(Box::new)?;
-    let Some(focus) = Focus::of(&problem) else {
-        let (over, model) = (request.over.name(), case.model.to_owned());
-        return Err(StudyError::NoSuchSetting { over, model, allowed: "laminar, bingham and section" });
-    };
-    let plan = |reference: &str, varied: &str, points| Plan {
+    let lacking = || lacking(registry, request.over, case.model);
+    let no_reference = |what: &'static str| StudyError::NoClosedForm { model: problem.model_name(), what };
+    let focus = problem.solver().study().focus.ok_or_else(lacking)?;
+    let plan = |reference: Reference, varied: &str, points| Plan {
         verb: "converge",
         case: request.case.clone(),
         overrides: request.overrides.clone(),
-        options: vec![("over".into(), request.over.name().into()), ("reference".into(), reference.into())],
+        options: vec![("over".into(), request.over.name().into()), ("reference".into(), reference.name().into())],
         varied: vec![varied.to_owned()],
         points,
         repeats: 1,
     };
     match request.over {
         Over::Regularisation => {
-            let reference = request.reference.unwrap_or(Reference::Exact);
-            let points = regularisation::points(reference, request.half_decades);
-            let judge = move |rows: &[Row]| regularisation::judge(&focus, reference, rows);
-            Ok((plan(reference.name(), regularisation::KEY, points), Box::new(judge)))
+            let sizes = focus.sizes.ok_or_else(lacking)?;
+            let reference = match request.reference {
+                Some(Reference::Exact) if sizes.exact.is_empty() => return Err(no_reference("exact yield")),
+                None if sizes.exact.is_empty() => Reference::Finest,
+                given => given.unwrap_or(Reference::Exact),
+            };
+            let points = regularisation::points(&sizes, reference, request.half_decades);
+            let judge = move |rows: &[Row]| regularisation::judge(&focus, &sizes, reference, rows);
+            Ok((plan(reference, sizes.key, points), Box::new(judge)))
         }
         Over::Mesh => {
-            let form = mesh::ClosedForm::of(&problem);
-            let closed = match (request.reference, form) {
+            let meshes = focus.meshes.ok_or_else(lacking)?;
+            let closed = match (request.reference, problem.solver().closed_form()) {
                 (Some(Reference::Finest), _) | (None, None) => None,
                 (_, Some(form)) => Some(form),
-                (Some(Reference::Exact), None) => {
-                    return Err(StudyError::NoClosedForm { model: format!("{} with this friction law", case.model) });
-                }
+                (Some(Reference::Exact), None) => return Err(no_reference("closed form")),
             };
             let reference = if closed.is_some() { Reference::Exact } else { Reference::Finest };
-            let Some(meshes) = focus.meshes else {
-                let (over, model) = (request.over.name(), case.model.to_owned());
-                return Err(StudyError::NoSuchSetting { over, model, allowed: "laminar, bingham and ducts" });
-            };
-            let points = mesh::points(reference, meshes);
-            let judge = move |rows: &[Row]| mesh::judge(&focus, closed.as_ref(), rows);
-            Ok((plan(reference.name(), mesh::KEY, points), Box::new(judge)))
+            let points = mesh::points(&meshes, reference);
+            let judge = move |rows: &[Row]| mesh::judge(&focus, &meshes, closed.as_deref(), rows);
+            Ok((plan(reference, mesh::KEY, points), Box::new(judge)))
         }
     }
+}
+
+/// That `model` has nothing to refine, and which models have: those of which a shipped case has it.
+fn lacking(registry: &Registry, over: Over, model: &str) -> StudyError {
+    let has = |focus: &Focus| match over {
+        Over::Regularisation => focus.sizes.is_some(),
+        Over::Mesh => focus.meshes.is_some(),
+    };
+    let mut models: Vec<&str> = shipped::names()
+        .filter_map(|name| registry.load(name, &[]).ok())
+        .filter(|(_, problem)| problem.solver().study().focus.as_ref().is_some_and(has))
+        .map(|(case, _)| case.model)
+        .collect();
+    models.sort_unstable();
+    models.dedup();
+    let allowed = match models.split_last() {
+        Some((last, [])) => (*last).to_owned(),
+        Some((last, others)) => format!("{} and {last}", others.join(", ")),
+        None => "no models".into(),
+    };
+    StudyError::NoSuchSetting { over: over.name(), model: model.to_owned(), allowed }
 }
 
 impl Reference {

@@ -1,13 +1,14 @@
 //! Where a method ends: what came of a point, and the limit between two of which one holds.
 
 use super::converge::error_text;
-use super::mesh::ClosedForm;
 use super::range::{Varied, number_and_unit, parse};
 use super::stability::Request;
 use super::{Row, StudyError};
 use crate::case::CaseError;
 pub use crate::case::checks::Class;
-use crate::model::{Context, Registry};
+use crate::model::ClosedForm;
+use crate::model::Registry;
+use crate::result::Context;
 use crate::result::Results;
 use crate::result::quantity::{self as q, Quantity};
 
@@ -77,7 +78,7 @@ impl Class {
     }
 }
 
-pub(super) fn solved(request: &Request, form: Option<ClosedForm>, results: &Results) -> Found {
+pub(super) fn solved(request: &Request, form: Option<Box<dyn ClosedForm>>, results: &Results) -> Found {
     let error = form.and_then(|form| {
         let of = |q: &&&Quantity| Some((results.get(q.name)?, form.results().get(q.name).filter(|x| *x != 0.0)?));
         JUDGED.iter().find_map(|q| of(&q)).map(|(value, exact)| (value / exact - 1.0).abs().max(ROUND_OFF))
@@ -103,7 +104,7 @@ fn trial(registry: &Registry, request: &Request, overrides: &[String]) -> Found 
             failed(Class::Refused, reason)
         }
         Ok(problem) => match Context::quiet(|context| problem.run(context)) {
-            Ok(outcome) => solved(request, ClosedForm::of(&problem), &outcome.results),
+            Ok(outcome) => solved(request, problem.solver().closed_form(), &outcome.results),
             Err(failure) => failed(Class::of_code(failure.error.code()), failure.error.to_string()),
         },
     }

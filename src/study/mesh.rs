@@ -1,105 +1,37 @@
-//! Convergence over the mesh, at the exact yield: observed orders with and without a node on the yield level.
+//! Convergence over the mesh: observed orders for each kind of mesh that a model has.
 
 use std::borrow::Cow;
 
 use serde_json::{Map, json};
 
 use super::converge::{Reference, curve, error_text, line, range_text};
-use super::errors::{Focus, L2, Meshes, RMS, RMS_PAPER, Truth, column};
+use super::errors::{Columns, L2, RMS, RMS_PAPER, Truth, column};
 use super::orders::{ROUND_OFF, overall, slopes};
-use super::regularisation::exact_yield;
 use super::{Judgement, Point, Row};
-use crate::model::{OnMesh, Problem};
-use crate::models::bingham::RegularisedPlane;
-use crate::models::exact::bed::LaminarBed;
-use crate::models::exact::bingham::BinghamPlane;
-use crate::models::exact::{bingham, ouriemi};
-use crate::models::laminar::RegularisedBed;
-use crate::plot::{Axis, Dash, Figure, Panel};
-use crate::result::quantity::{U_MIXTURE, U_PARTICLE};
-use crate::result::{Profile, Quiet, Results, Status};
+use crate::model::ClosedForm;
+use crate::model::{Focus, Meshes};
+use crate::plot::{Axis, Curve, Dash, Figure, Panel};
+use crate::result::Status;
 
 /// What is varied.
 pub(super) const KEY: &str = "grid.cells";
-/// Levels of a closed form whose profile is not used.
-const LEVELS: usize = 24;
-const SERIES: [&str; 2] = ["node on the yield level", "no node there"];
 const REFERENCE: &str = "reference";
+/// Order of all methods where the solution is smooth.
+const ORDER: i32 = 2;
 
-/// The solution of the exact yield, to round-off.
-#[derive(Clone, Debug)]
-pub(super) struct ClosedForm {
-    velocity: Velocity,
-    results: Results,
-}
-
-#[derive(Clone, Debug)]
-enum Velocity {
-    Bed(Box<(LaminarBed, ouriemi::Solution)>),
-    Plane(bingham::Solution),
-}
-
-impl ClosedForm {
-    /// The closed form of the exact yield of `problem`, if it has one and that can be evaluated.
-    pub fn of(problem: &Problem) -> Option<Self> {
-        let (velocity, outcome) = if let Some(OnMesh { problem: RegularisedBed { bed, .. }, .. }) = problem.get() {
-            let solution = ouriemi::solve(bed, |_| {}).ok().filter(|_| bed.rise.is_none())?;
-            (Velocity::Bed(Box::new((*bed, solution))), ouriemi::run(bed, LEVELS, &mut Quiet))
-        } else {
-            let OnMesh { problem: RegularisedPlane { plane, .. }, .. } = problem.get()?;
-            (exact_plane(plane)?, bingham::run(plane, LEVELS, &mut Quiet))
-        };
-        let outcome = outcome.ok()?;
-        Some(Self { velocity, results: outcome.results })
-    }
-
-    /// Its numbers [SI].
-    pub fn results(&self) -> &Results {
-        &self.results
-    }
-
-    /// The velocity at the levels of `run`.
-    fn at(&self, run: &Profile) -> Option<Profile> {
-        let levels = run.axis();
-        let mut profile = Profile::new(levels.clone()).ok()?;
-        match &self.velocity {
-            Velocity::Bed(bed) => {
-                let (bed, solution) = bed.as_ref();
-                // The top of the grains may lie an ulp above the bed level.
-                let grains = |z: f64| bed.velocity_scale() * solution.particle(z.min(bed.h_p) / bed.h);
-                let defined = run.get(&U_PARTICLE)?.iter().map(Option::is_some);
-                let values = levels.iter().zip(defined).map(|(&z, defined)| defined.then(|| grains(z)));
-                profile.push(&U_PARTICLE, values.collect()).ok()?;
-            }
-            Velocity::Plane(solution) => {
-                profile.push(&U_MIXTURE, levels.iter().map(|&z| Some(solution.velocity(z))).collect()).ok()?;
-            }
-        }
-        Some(profile)
-    }
-}
-
-fn exact_plane(plane: &BinghamPlane) -> Option<Velocity> {
-    bingham::Solution::new(plane, |_| {}).ok().map(Velocity::Plane)
-}
-
-pub(super) fn points(reference: Reference, meshes: Meshes) -> Vec<Point> {
-    let Meshes { coarsest, count, node: key } = meshes;
-    let point = |series: &str, cells: usize, node: bool| {
-        let grid = [format!("{KEY}={cells}"), format!("{key}={node}")];
-        Point {
-            case: None,
-            series: series.into(),
-            values: vec![cells.to_string()],
-            overrides: [&grid[..], &exact_yield()].concat(),
-        }
+pub(super) fn points(meshes: &Meshes, reference: Reference) -> Vec<Point> {
+    let point = |series: &str, cells: usize, kind: &[&str]| Point {
+        case: None,
+        series: series.into(),
+        values: vec![cells.to_string()],
+        overrides: meshes.set(cells, kind),
     };
     let mut points = Vec::new();
-    if reference == Reference::Finest {
-        points.push(point(REFERENCE, coarsest << count, true));
+    if let (Reference::Finest, Some((_, kind))) = (reference, meshes.kinds.first()) {
+        points.push(point(REFERENCE, meshes.reference, kind));
     }
-    for (series, node) in SERIES.into_iter().zip([true, false]) {
-        points.extend((0..count).map(|i| point(series, coarsest << i, node)));
+    for (series, kind) in meshes.kinds {
+        points.extend(meshes.cells.iter().map(|&cells| point(series, cells, kind)));
     }
     points
 }
@@ -108,107 +40,178 @@ fn cells(row: &Row) -> f64 {
     row.point.values.first().and_then(|v| v.parse().ok()).unwrap_or(f64::NAN)
 }
 
-pub(super) fn judge(focus: &Focus, closed: Option<&ClosedForm>, rows: &[Row]) -> Judgement {
-    let finest = rows.iter().find(|row| row.point.series == REFERENCE && row.status == Status::Done);
-    let truth = |row: &Row| match closed {
-        Some(form) => Some(Truth { profile: Cow::Owned(form.at(row.profile.as_ref()?)?), results: &form.results }),
-        None => {
-            let finest = finest.filter(|finest| !std::ptr::eq(*finest, row))?;
-            Some(Truth { profile: Cow::Borrowed(finest.profile.as_ref()?), results: &finest.results })
+/// One kind of mesh: its rows, their cells and their errors of each kind.
+struct Series<'a> {
+    name: &'static str,
+    rows: Vec<usize>,
+    cells: Vec<f64>,
+    measures: &'a Columns,
+}
+
+impl Series<'_> {
+    fn errors(&self, name: &str) -> Vec<Option<f64>> {
+        let all = column(self.measures, name);
+        self.rows.iter().map(|&i| all.get(i).copied().flatten()).collect()
+    }
+
+    /// Orders from each mesh to the one before it.
+    fn orders(&self, name: &str) -> Vec<Option<f64>> {
+        slopes(&self.cells, &self.errors(name)).into_iter().map(|slope| slope.map(|slope| -slope)).collect()
+    }
+
+    /// Order from the coarsest to the finest mesh whose errors are more than round-off.
+    fn order(&self, name: &str) -> Option<f64> {
+        overall(&self.cells, &self.errors(name)).map(|slope| -slope)
+    }
+
+    /// Errors from the coarsest to the finest mesh and the orders between, or that there is nothing but round-off.
+    fn text(&self, name: &str) -> String {
+        let known: Vec<f64> = self.errors(name).into_iter().flatten().collect();
+        let (Some(first), Some(last)) = (known.first(), known.last()) else { return "unknown".into() };
+        let worst = known.iter().copied().fold(0.0, f64::max);
+        if worst <= ROUND_OFF {
+            return format!("round-off on every mesh (at most {worst:.0e})");
         }
+        let whole = self.order(name).map(|order| format!(", order {order:.2}")).unwrap_or_default();
+        let between = range_text(self.orders(name).into_iter().flatten());
+        let between = between.map(|range| format!(" ({range} from mesh to mesh)")).unwrap_or_default();
+        format!("{} to {}{whole}{between}", error_text(*first), error_text(*last))
+    }
+}
+
+pub(super) fn judge(focus: &Focus, meshes: &Meshes, closed: Option<&dyn ClosedForm>, rows: &[Row]) -> Judgement {
+    let finest = rows.iter().find(|row| row.point.series == REFERENCE && row.status == Status::Done);
+    let truth = |row: &Row| {
+        let (profile, results) = match closed {
+            Some(form) => (Cow::Owned(form.at(row.profile.as_ref()?)?), form.results()),
+            None => {
+                let finest = finest.filter(|finest| !std::ptr::eq(*finest, row))?;
+                (Cow::Borrowed(finest.profile.as_ref()?), &finest.results)
+            }
+        };
+        Some(Truth { profile, results, exact_yield: false })
     };
     let mut measures = focus.measures(rows, truth);
+    let mut more: Columns = Vec::new();
+    let kinds: Vec<Series<'_>> = meshes.kinds.iter().map(|(name, _)| series(name, rows, &measures)).collect();
     let mut judgement = Judgement {
         subtitle: format!(
             "Relative error of the {} against {}.",
             focus.velocity.title,
-            if closed.is_some() { "the closed form, at the nodes" } else { "the finest mesh" }
+            if closed.is_some() {
+                "the closed form, at the nodes".into()
+            } else {
+                format!("{} cells", meshes.reference)
+            }
         ),
-        figures: vec![figure(focus, rows, &measures)],
+        figures: vec![figure(focus, &kinds)],
         ..Judgement::default()
     };
+    let wanted: Vec<(String, &str)> = std::iter::once((L2.to_owned(), "velocity (L2)"))
+        .chain(focus.numbers.iter().map(|number| (number.column(), number.quantity.title)))
+        .collect();
     let mut facts = Map::new();
-    let wanted = [(L2.to_owned(), "velocity (L2)"), (focus.number_error(), focus.number.0.title)];
-    let (mut by_velocity, mut by_number) = (vec![None; rows.len()], vec![None; rows.len()]);
-    for series in SERIES {
-        let of: Vec<usize> = (0..rows.len()).filter(|&i| rows[i].point.series == series).collect();
-        let x: Vec<f64> = of.iter().map(|&i| cells(&rows[i])).collect();
-        let errors = |name: &str| -> Vec<Option<f64>> {
-            let all = column(&measures, name);
-            of.iter().map(|&i| all.get(i).copied().flatten()).collect()
-        };
-        let orders = |name: &str| -> Vec<Option<f64>> {
-            slopes(&x, &errors(name)).into_iter().map(|order| order.map(|order| -order)).collect()
-        };
-        let text = wanted.iter().map(|(name, title)| format!("{title} {}", text(&errors(name), &x, &orders(name))));
-        judgement.findings.push((series.into(), text.collect::<Vec<_>>().join("; ")));
-        let order = |name: &str| overall(&x, &errors(name)).map(|slope| -slope);
-        facts.insert(series.into(), json!({ "order_velocity": order(L2), "order_number": order(&wanted[1].0) }));
-        if let (Some(paper), Some(own), Some(_)) = (order(RMS_PAPER), order(RMS), order(L2)) {
+    for kind in &kinds {
+        if let [only] = &kinds[..] {
+            let text = |(name, title): &(String, &str)| ((*title).to_owned(), only.text(name));
+            judgement.findings.extend(wanted.iter().map(text));
+        } else {
+            let text = wanted.iter().map(|(name, title)| format!("{title} {}", kind.text(name)));
+            judgement.findings.push((kind.name.into(), text.collect::<Vec<_>>().join("; ")));
+        }
+        if let (true, Some(paper), Some(own)) = (focus.paper_rms, kind.order(RMS_PAPER), kind.order(RMS))
+            && kind.order(L2).is_some()
+        {
             let text =
                 format!("order {paper:.2} where the root mean square has {own:.2}: it divides by N outside the root");
             judgement.findings.push(("  RMS of the paper".into(), text));
         }
-        for (column, name) in [(&mut by_velocity, L2), (&mut by_number, wanted[1].0.as_str())] {
-            for (&i, order) in of.iter().zip(orders(name)) {
-                column[i] = order;
+        let number = focus.numbers.first().and_then(|number| kind.order(&number.column()));
+        let mut orders = Map::new();
+        orders.insert("order_velocity".into(), json!(kind.order(L2)));
+        orders.insert("order_number".into(), json!(number));
+        for number in focus.numbers {
+            orders.insert(format!("order_{}", number.short), json!(kind.order(&number.column())));
+        }
+        facts.insert(kind.name.into(), orders.into());
+    }
+    for (name, _) in &wanted {
+        let mut orders = vec![None; rows.len()];
+        for kind in &kinds {
+            for (&i, order) in kind.rows.iter().zip(kind.orders(name)) {
+                orders[i] = order;
             }
         }
+        more.push((name.replacen("error", "order", 1), orders));
     }
-    judgement.findings.push(("yield".into(), "exact".into()));
-    // With Coulomb friction the corner is all there is of an error.
+    judgement.findings.extend(meshes.remarks.iter().map(|&(label, text)| (label.to_owned(), text.to_owned())));
+    // Where there is a closed form, the corner at the yield level is all there is of an error.
     if closed.is_some() {
         let moves = "without a node there, the error goes with the square of the distance from the yield level to the nearest node";
         judgement.findings.push(("orders".into(), moves.into()));
     }
     judgement.facts.insert("orders_from_coarsest_to_finest".into(), facts.into());
-    measures.push(("order_velocity_l2".into(), by_velocity));
-    measures.push((format!("order_{}", focus.number.1), by_number));
+    drop(kinds);
+    measures.extend(more);
     judgement.measures = measures;
     judgement
 }
 
-/// Errors from the coarsest to the finest mesh and the orders between, or that there is nothing but round-off.
-fn text(errors: &[Option<f64>], cells: &[f64], orders: &[Option<f64>]) -> String {
-    let known: Vec<f64> = errors.iter().copied().flatten().collect();
-    let (Some(first), Some(last)) = (known.first(), known.last()) else { return "unknown".into() };
-    let worst = known.iter().copied().fold(0.0, f64::max);
-    if worst <= ROUND_OFF {
-        return format!("round-off on every mesh (at most {worst:.0e})");
-    }
-    let whole = overall(cells, errors).map(|slope| format!(", order {:.2}", -slope)).unwrap_or_default();
-    let between = range_text(orders.iter().copied().flatten()).map(|range| format!(" ({range} from mesh to mesh)"));
-    format!("{} to {}{whole}{}", error_text(*first), error_text(*last), between.unwrap_or_default())
+fn series<'a>(name: &'static str, rows: &[Row], measures: &'a Columns) -> Series<'a> {
+    let of: Vec<usize> = (0..rows.len()).filter(|&i| rows[i].point.series == name).collect();
+    let cells = of.iter().map(|&i| cells(&rows[i])).collect();
+    Series { name, rows: of, cells, measures }
 }
 
-fn figure(focus: &Focus, rows: &[Row], measures: &[(String, Vec<Option<f64>>)]) -> Figure {
-    let all = rows.iter().filter(|row| row.point.series != REFERENCE).map(cells);
+/// A panel for the velocity and one for the first number where there are several kinds of mesh; else one for all measures.
+fn figure(focus: &Focus, kinds: &[Series<'_>]) -> Figure {
+    let all = kinds.iter().flat_map(|kind| kind.cells.iter().copied());
     let (fewest, most) = all.fold((f64::INFINITY, 0.0_f64), |(a, b), n| (a.min(n), b.max(n)));
-    let panel = |name: &str, named: bool| {
-        let errors = column(measures, name);
-        let at = |i: usize| errors.get(i).copied().flatten().filter(|e| *e > 0.0);
-        let mut curves = Vec::new();
-        for (k, series) in SERIES.iter().enumerate() {
-            let of = (0..rows.len()).filter(|&i| rows[i].point.series == *series);
-            curves.push(curve(if named { series } else { "" }, k, of.map(|i| (cells(&rows[i]), at(i)))));
-        }
-        let largest = (0..rows.len()).filter_map(at).fold(0.0, f64::max);
+    let drawn = |label: &str, i: usize, kind: &Series<'_>, name: &str| {
+        let errors = kind.errors(name).into_iter().map(|e| e.filter(|e| *e > 0.0));
+        curve(label, i, kind.cells.iter().copied().zip(errors))
+    };
+    let panel = |mut curves: Vec<Curve>, named: bool| {
+        let largest = curves.iter().flat_map(|c| c.points.iter().flatten()).map(|p| p.1).fold(0.0, f64::max);
         if largest > ROUND_OFF {
-            let (a, b) = (fewest, most);
-            let guide = vec![(a, 2.0 * largest), (b, 2.0 * largest * (a / b).powi(2))];
-            curves.push(line(if named { "order 2".into() } else { String::new() }, 3, Dash::Dotted, guide));
+            let guide = vec![(fewest, 2.0 * largest), (most, 2.0 * largest * (fewest / most).powi(ORDER))];
+            let name = if named { format!("order {ORDER}") } else { String::new() };
+            curves.push(line(name, curves.len().max(3), Dash::Dotted, guide));
         }
         // Ends between two decades: no number stands where the next panel begins.
         Panel { x: Axis { ends: Some((0.75 * fewest, 1.4 * most)), ..Axis::log("cells", "1") }, curves }
     };
+    let (velocity, first) = (focus.velocity.title, focus.numbers.first());
+    let (caption, y, panels) = match (kinds, first) {
+        ([_, _, ..], Some(number)) => {
+            let of = |name: &str, named: bool| {
+                let label = |kind: &Series<'_>| if named { kind.name } else { "" };
+                panel(kinds.iter().enumerate().map(|(i, kind)| drawn(label(kind), i, kind, name)).collect(), named)
+            };
+            let number_title = number.quantity.title;
+            (
+                format!("(a) L² norm of the {velocity}, (b) {number_title}"),
+                format!("relative error of (a) velocity, (b) {number_title}"),
+                vec![of(L2, true), of(&number.column(), false)],
+            )
+        }
+        _ => {
+            let titles = focus.numbers.iter().map(|number| (number.column(), number.quantity.title));
+            let titles: Vec<(String, &str)> = std::iter::once((L2.to_owned(), "velocity (L2)")).chain(titles).collect();
+            let curves = kinds
+                .iter()
+                .flat_map(|kind| titles.iter().enumerate().map(move |(i, (name, title))| drawn(title, i, kind, name)));
+            let caption = format!("L² norm of the {velocity}, and numbers");
+            (caption, "relative error".into(), vec![panel(curves.collect(), true)])
+        }
+    };
     Figure {
         stem: "convergence".into(),
         caption: format!(
-            "Relative error over the number of cells: (a) L² norm of the {}, (b) {}. Errors below {ROUND_OFF:.0e} are round-off.",
-            focus.velocity.title, focus.number.0.title
+            "Relative error over the number of cells: {caption}. Errors below {ROUND_OFF:.0e} are round-off."
         ),
-        y: Axis::log("relative error of (a) velocity, (b) transport rate", "1"),
-        panels: vec![panel(L2, true), panel(&focus.number_error(), false)],
+        y: Axis::log(&y, "1"),
+        panels,
         levels: Vec::new(),
         tint_below: None,
     }

@@ -133,7 +133,7 @@ pub enum StudyError {
         /// the model of the case
         model: String,
         /// models that have it
-        allowed: &'static str,
+        allowed: String,
     },
     /// what errors are to be measured against cannot be used
     #[error("--reference {argument}: {reason}")]
@@ -143,11 +143,13 @@ pub enum StudyError {
         /// what is wrong with it
         reason: String,
     },
-    /// no closed form to measure against
-    #[error("{model} has no closed form to converge to")]
+    /// nothing exact to measure against
+    #[error("{model}: this case has no {what} to converge to")]
     NoClosedForm {
-        /// the model, with what in it has none
+        /// the model
         model: String,
+        /// `closed form` or `exact yield`
+        what: &'static str,
     },
     /// an argument of `--over` that cannot be read
     #[error("--over {argument}: {reason}")]
@@ -228,7 +230,9 @@ impl StudyError {
     pub fn hint(&self) -> String {
         match self {
             Self::NoSuchSetting { .. } => "give a case of such a model: `bedload list cases`".into(),
-            Self::NoClosedForm { .. } => "--reference finest measures against the finest mesh".into(),
+            Self::NoClosedForm { .. } => {
+                "--reference finest measures against the finest mesh, or the smallest regularisation".into()
+            }
             Self::BadReference { .. } => "give the folder of a finished run, `exact` or `finest`".into(),
             Self::BadOver { argument, .. } => over_hint(argument),
             Self::BadFit { hint, .. } | Self::BadData { hint, .. } => hint.clone(),

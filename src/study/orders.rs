@@ -1,5 +1,7 @@
 //! How fast an error falls: slopes between neighbouring points, and the constant of a known law.
 
+use crate::model::Law;
+
 /// Relative errors below this are round-off, of sums over thousands of cells: no order is read from them.
 pub const ROUND_OFF: f64 = 1e-11;
 
@@ -22,35 +24,6 @@ pub fn overall(x: &[f64], errors: &[Option<f64>]) -> Option<f64> {
     let mut seen = x.iter().zip(errors).filter_map(|(x, e)| Some((*x, e.filter(|e| *e > ROUND_OFF)?)));
     let ((x0, e0), (x1, e1)) = (seen.next()?, seen.next_back()?);
     Some((e1 / e0).ln() / (x1 / x0).ln()).filter(|slope| slope.is_finite())
-}
-
-/// How the error of a regularised yield stress goes with its size lambda, s being the shear rate of the flow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Law {
-    /// C (lambda/s) ln(s/lambda): the ratio R of the law falls short of 1 like lambda/gamma, which is felt at every depth
-    Logarithmic,
-    /// C lambda/s: it falls short of 1 faster than that
-    Linear,
-}
-
-impl Law {
-    /// The law with C = 1, for lambda below s.
-    #[must_use]
-    pub fn at(self, lambda: f64, s: f64) -> f64 {
-        match self {
-            Self::Logarithmic => lambda / s * (s / lambda).ln(),
-            Self::Linear => lambda / s,
-        }
-    }
-
-    /// As a formula.
-    #[must_use]
-    pub fn formula(self) -> &'static str {
-        match self {
-            Self::Logarithmic => "(λ/s) ln(s/λ)",
-            Self::Linear => "λ/s",
-        }
-    }
 }
 
 /// A law with its constant.

@@ -12,11 +12,12 @@ use serde_json::Value;
 use super::converge::Judge;
 use super::{Judgement, Plan, Point, Row, StudyError, page, record};
 use crate::case::{Case, CaseError};
-use crate::model::{Context, Problem, Registry};
+use crate::model::{Problem, Registry};
 use crate::output::{
     Folder, Mode, OutputError, StudyFolder, fingerprint, read_run, read_series, write_failure, write_outcome,
     write_running,
 };
+use crate::result::Context;
 use crate::result::{Cost, ErrorReport, Provenance, Results, Snapshot, Status, Watch};
 use crate::runtime::cost::peak_memory_mb;
 

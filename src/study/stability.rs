@@ -11,7 +11,6 @@ use serde_json::json;
 use super::chart::time_text;
 use super::converge::{Judge, error_text};
 use super::limits::{Class, Found, limits, solved};
-use super::mesh::ClosedForm;
 use super::range::{MOST, Varied, number_and_unit, parse};
 use super::{Judgement, Plan, Point, Row, StudyError};
 use crate::model::Registry;
@@ -90,7 +89,7 @@ fn classify(registry: &Registry, request: &Request, row: &Row) -> Found {
         _ => {
             let overrides = [&request.overrides[..], &row.point.overrides].concat();
             let problem = registry.load(&request.case, &overrides).ok();
-            solved(request, problem.and_then(|(_, problem)| ClosedForm::of(&problem)), &row.results)
+            solved(request, problem.and_then(|(_, problem)| problem.solver().closed_form()), &row.results)
         }
     }
 }

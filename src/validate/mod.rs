@@ -7,8 +7,9 @@ use std::fmt::Write;
 
 use crate::case::checks::{Check, CheckKind, Limit, Tier};
 use crate::case::{CaseError, shipped};
-use crate::model::{Context, Registry};
+use crate::model::Registry;
 use crate::plot::{Axis, Curve, Dash, Figure, Marker, Panel};
+use crate::result::Context;
 use crate::result::{Failure, Outcome, Provenance, Watch, quantity};
 use crate::study::StudyError;
 use crate::study::limits::{self, Along};

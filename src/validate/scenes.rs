@@ -9,7 +9,8 @@ use std::time::Instant;
 use super::Verdict;
 use super::table::SCENES;
 use crate::advise::{self, Least};
-use crate::model::{Context, Registry};
+use crate::model::Registry;
+use crate::result::Context;
 use crate::units::significant;
 
 /// What the answer of a scene is.

@@ -150,12 +150,138 @@ fn it_ends_with_at_most_twelve_lines_and_a_model_without_the_setting_is_wrong_in
     assert!(said.out.contains(&format!("{folder}/report.html")), "{}", said.out);
     assert_eq!(scratch.names(folder), ["figures", "points", "points.csv", "report.html", "study.json"]);
     assert_eq!(scratch.names(&format!("{folder}/figures")), ["convergence.png"]);
-    for over in ["regularisation", "mesh"] {
-        let said = scratch.bedload(["converge", "exact_1d_bagnold", "--over", over, "--json"]).exits(2).json();
-        assert_eq!(said["error"]["code"], "no-such-setting", "{said}");
+    for case in ["exact_1d_bagnold", "grains_3d_bed", "coupled_3d_chassagne", "impact_1d_headon"] {
+        for over in ["regularisation", "mesh"] {
+            let said = scratch.bedload(["converge", case, "--over", over, "--json"]).exits(2).json();
+            assert_eq!(said["error"]["code"], "no-such-setting", "{said}");
+            let message = said["error"]["message"].as_str().unwrap();
+            for model in
+                ["laminar", "bingham", "section/duct", "section/bed", "section/cavity", "sheet-flow", "two-fluid"]
+            {
+                assert!(message.contains(model), "{message}");
+            }
+            assert_eq!(message.contains("shear-cell"), over == "mesh", "{message}");
+        }
     }
     scratch.bedload(["converge", BED, "--over", "time"]).exits(2);
     scratch.bedload(["converge", BED, "--over", "mesh", "--half-decades"]).exits(2);
     scratch.bedload(["converge", BED, "--over", "mesh", "--set", "bed.phi=0.9"]).exits(2);
     assert_eq!(scratch.names("runs").len(), 1);
+}
+
+/// Observed orders, or slopes, of a measure from each point to the one before it.
+fn orders(study: &Value, series: &str, key: &str, measure: &str) -> Vec<f64> {
+    measured(study, series, key, measure).into_iter().map(|(_, order)| order).collect()
+}
+
+#[test]
+fn a_sheet_flow_loses_its_creep_with_the_size_and_its_error_much_slower() {
+    let scratch = Scratch::new();
+    let key = "regularisation.lambda";
+    for (case, at_1e_4) in [("sheet_1d_sumer91", 0.0192), ("sheet_1d_cowen", 0.0049)] {
+        let found = study(&scratch, &[case, "--over", "regularisation"]);
+        assert_eq!((&found["options"]["reference"], found["varied"][0].as_str()), (&"exact".into(), Some(key)));
+        assert_eq!(found["points"][0]["series"], "exact yield");
+        let of = |measure: &str| measured(&found, "simple", key, measure);
+        let rates = of("error_transport_rate");
+        assert_eq!(rates.len(), 10);
+        assert!((rates[3].1 / at_1e_4 - 1.0).abs() < 0.02, "{rates:?}");
+        // From 1e-2 1/s down the rate goes like a root and less, the creep like the size itself.
+        for (lambda, slope) in of("slope_transport_rate").into_iter().filter(|(lambda, _)| *lambda < 2e-3) {
+            assert!((0.25..0.5).contains(&slope), "{case}: {slope} at {lambda}");
+        }
+        for (lambda, slope) in of("slope_creep_velocity").into_iter().filter(|(lambda, _)| *lambda < 2e-2) {
+            assert!((0.95..1.07).contains(&slope), "{case}: {slope} at {lambda}");
+        }
+        let velocity = of("error_velocity_l2");
+        assert!(velocity.len() == 10 && velocity.windows(2).all(|p| p[1].1 < p[0].1), "{velocity:?}");
+        // Where all of the bed creeps by more than 0.1 % there is no thickness.
+        let thickness = of("error_sheet_thickness");
+        assert!(thickness.len() >= 4 && thickness.iter().all(|(lambda, _)| *lambda < 2e-5), "{thickness:?}");
+        // The rate is compared on one mesh: the error is the one that each run states.
+        for point in found["points"].as_array().unwrap().iter().skip(1) {
+            let stated = point["results"]["regularisation_error_transport_rate"]["value"].as_f64().unwrap();
+            assert_eq!(point["measures"]["error_transport_rate"].as_f64().unwrap(), stated.abs());
+        }
+    }
+    let half = study(&scratch, &["sheet_1d_sumer91", "--over", "regularisation", "--half-decades", "--force"]);
+    assert_eq!(half["points"].as_array().unwrap().len(), 1 + 10 + 9);
+    let finest = ["sheet_1d_sumer91", "--over", "regularisation", "--reference", "finest", "--force"];
+    let errors = measured(&study(&scratch, &finest), "simple", key, "error_transport_rate");
+    assert!(errors.len() == 9 && errors.windows(2).all(|p| p[1].1 < p[0].1), "{errors:?}");
+}
+
+#[test]
+fn a_sheet_flow_converges_with_its_mesh_at_the_exact_yield_whatever_the_case_says() {
+    let scratch = Scratch::new();
+    let iterated = ["model.method=iteration", "regularisation.law=simple", "regularisation.lambda=1e-3"];
+    let iterated: Vec<&str> = iterated.iter().flat_map(|set| ["--set", set]).collect();
+    let mut first = None;
+    for settings in [&[][..], &iterated] {
+        let found = study(&scratch, &[&["sheet_1d_sumer91", "--over", "mesh", "--force"], settings].concat());
+        assert_eq!(found["options"]["reference"], "finest");
+        let of = |measure: &str| measured(&found, "mesh", "grid.cells", measure);
+        // The velocity falls with order 2; the rate follows the interface, with a zero of its error near 300 cells.
+        let (velocity, rate) = (of("error_velocity_l2"), of("error_transport_rate"));
+        assert_eq!((velocity.len(), velocity[0].0, velocity[5].0), (6, 40.0, 1280.0));
+        assert!(orders(&found, "mesh", "grid.cells", "order_velocity_l2").iter().all(|o| *o > 1.9), "{velocity:?}");
+        assert!(velocity[5].1 < 3e-6 && rate[2].1 < 7e-4 && rate[3..].iter().all(|(_, e)| *e < 3e-5), "{rate:?}");
+        let all = &found["facts"]["orders_from_coarsest_to_finest"]["mesh"];
+        for (name, least) in
+            [("order_transport_rate", 2.0), ("order_sheet_thickness", 1.7), ("order_phi_interface", 1.7)]
+        {
+            assert!(all[name].as_f64().unwrap() > least, "{all}");
+        }
+        let same = first.get_or_insert_with(|| rate.clone());
+        assert_eq!(*same, rate);
+    }
+}
+
+#[test]
+fn two_fluids_and_a_shear_cell_converge_with_order_two() {
+    let scratch = Scratch::new();
+    let found = study(&scratch, &["kinetic_1d_theta06", "--over", "mesh"]);
+    for kind in ["cells as in the case", "cells of equal height"] {
+        let orders = orders(&found, kind, "grid.cells", "order_velocity_l2");
+        assert!(orders.len() == 3 && orders.iter().all(|o| (1.8..2.5).contains(o)), "{kind}: {orders:?}");
+        let whole = &found["facts"]["orders_from_coarsest_to_finest"][kind]["order_transport_rate"];
+        assert!(whole.as_f64().unwrap() > 1.8, "{kind}: {whole}");
+    }
+    // Cells that are fine where the grains move are worth twice as many.
+    let error = |kind: &str| measured(&found, kind, "grid.cells", "error_velocity_l2");
+    let (graded, equal) = (error("cells as in the case"), error("cells of equal height"));
+    assert!(graded.iter().zip(&equal).all(|(a, b)| a.1 < 0.5 * b.1), "{graded:?} {equal:?}");
+    let found = study(&scratch, &["kinetic_1d_shear", "--over", "mesh"]);
+    for measure in ["velocity_l2", "wall_pressure", "wall_shear", "wall_heat"] {
+        let orders = orders(&found, "mesh", "grid.cells", &format!("order_{measure}"));
+        // Against a mesh of twice the finest the last order is log2(5) for a method of order 2.
+        assert!(orders.len() == 4 && orders[..3].iter().all(|o| (1.95..2.1).contains(o)), "{measure}: {orders:?}");
+        assert!((orders[3] - 5.0_f64.log2()).abs() < 0.02, "{measure}: {orders:?}");
+    }
+}
+
+#[test]
+fn the_creep_of_contacts_of_two_fluids_costs_what_its_size_says() {
+    let scratch = Scratch::new();
+    let case = ["kinetic_1d_theta06", "--over", "regularisation", "--set", "grid.cells=60"];
+    let found = study(&scratch, &case);
+    assert_eq!(found["options"]["reference"], "finest");
+    let key = "regularisation.shear_rate";
+    for measure in ["velocity_l2", "transport_rate"] {
+        let slopes = measured(&found, "bercovier-engelman", key, &format!("slope_{measure}"));
+        let inside: Vec<_> = slopes.iter().filter(|(size, _)| *size < 2e-2 && *size > 5e-8).collect();
+        assert!(inside.len() >= 5 && inside.iter().all(|(_, s)| (0.95..1.05).contains(s)), "{measure}: {slopes:?}");
+    }
+    let refused = scratch.bedload([&["converge"], &case[..], &["--reference", "exact", "--json"]].concat());
+    assert_eq!(refused.exits(2).json()["error"]["code"], "no-closed-form");
+}
+
+#[test]
+fn a_cavity_converges_with_its_cells() {
+    let scratch = Scratch::new();
+    let found = study(&scratch, &["section_2d_cavity_bn0", "--over", "mesh"]);
+    let orders = &found["facts"]["orders_from_coarsest_to_finest"]["mesh"];
+    for name in ["order_velocity", "order_stream_function"] {
+        assert!(orders[name].as_f64().unwrap() > 1.9, "{orders}");
+    }
 }

@@ -34,3 +34,4 @@ mod sheet_statements;
 mod studies;
 mod support;
 mod sweep;
+mod uphill;

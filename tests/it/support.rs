@@ -8,7 +8,8 @@ use std::process::{Command, Stdio};
 use std::sync::LazyLock;
 
 use bedload::case::{Case, CaseError};
-use bedload::model::{Checked, Context, Problem, Registry};
+use bedload::model::{Checked, Problem, Registry};
+use bedload::result::Context;
 use bedload::result::{Failure, Outcome, Quiet};
 use serde_json::Value;
 use tempfile::TempDir;

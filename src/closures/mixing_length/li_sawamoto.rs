@@ -1,6 +1,6 @@
 //! The mixing length of Li and Sawamoto: grains below damp the turbulence above.
 //!
-//! `l_m(z) = kappa int_0^z (phi_max - phi)/phi_max dz`
+//! `l_m(z) = kappa int_0^z max(0, phi_max - phi)/phi_max dz`
 //!
 //! | symbol | meaning | unit |
 //! |---|---|---|
@@ -11,9 +11,17 @@
 //! Limits: `kappa z` in clear fluid, `kappa (z - h)` above a packed bed of thickness h, 0 inside it. The law is not local:
 //! it is given all faces and the solid fractions between them, and its integral is exact for fractions constant in each cell.
 //!
-//! Averages over grains exceed phi_max here and there, and the integral falls there, as published. Where it falls below 0
-//! the length is 0: the eddy viscosity has its square, which would grow again. The published code instead takes phi_max in
-//! all cells below the highest one that reaches it (`below_packed = "zero"`), so that the integral starts at that cell.
+//! As published the integrand is (phi_max - phi)/phi_max (`below_packed = "published"`). In a bed denser than phi_max that
+//! integral falls below 0 and leaves no turbulence in the lowest water, whose viscosity alone then carries the stress: its
+//! velocity grows out of bounds. So a layer denser than phi_max adds nothing and takes nothing away. Where phi falls
+//! upwards the two differ by what the dense bottom takes away; where phi <= phi_max they are the same to the bit.
+//! Averages over thin slices of grains scatter about their mean. Where that is near phi_max the clipped integrand adds up the
+//! gaps between grains and the published one does not, so that a flume whose phi_max is the packing of its own bed
+//! carries a quarter less (docs/coupled.md): its cases state the published integral.
+//!
+//! Where the published integral falls below 0 the length is 0: the eddy viscosity has its square, which would grow again.
+//! The published code instead takes phi_max in all cells below the highest one that reaches it (`below_packed = "zero"`), so
+//! that the integral starts at that cell.
 //!
 //! phi_max is a constant of this law and no other: 0.51 in the quasi-2D, 0.61 in the 3D flows of Maurin et al. (2015).
 //! Source: Li & Sawamoto (1995), Coastal Eng. Japan 38, 47-73; Maurin et al. (2015), eq. (5); Revil-Baudard & Chauchat
@@ -30,24 +38,24 @@ use crate::numerics::dual::Real;
 pub static INFO: Info = Info {
     family: "mixing_length",
     law: "li-sawamoto",
-    equation: "l_m = κ ∫₀ᶻ (φ_max - φ)/φ_max dz",
+    equation: "l_m = κ ∫₀ᶻ max(0, φ_max - φ)/φ_max dz",
     source: "Li & Sawamoto (1995); Maurin et al. (2015), eq. (5); Revil-Baudard & Chauchat (2013), eq. (18)",
     ranges: &[Range { variable: "phi", min: 0.0, max: 0.635 }],
     standing: Standing::Validated,
 };
 
-/// What is done below the highest packed cell.
+/// What a layer denser than phi_max does to the integral.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BelowPacked {
-    /// The integral from the bottom, wherever the grains are packed.
+    /// Nothing: the integrand is max(0, phi_max - phi)/phi_max, as Chassagne et al. (2023) read it.
     #[default]
+    Clipped,
+    /// It takes away from it: the integral of (phi_max - phi)/phi_max from the bottom, as published; the length is 0 where that
+    /// is negative. For beds that are not denser than phi_max on the mean.
     Published,
     /// No turbulence below the highest cell that reaches phi_max, as in the published code.
     Zero,
-    /// The integral from the bottom, in which a packed layer counts as nothing and not as less: the reading of the kinetic
-    /// model of Chassagne et al. (2023).
-    Clipped,
 }
 
 /// Grains below damp the turbulence above.
@@ -60,7 +68,7 @@ pub struct LiSawamoto {
     /// Solid fraction at which the turbulence dies.
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
     pub phi_max: f64,
-    /// What is done below the highest cell that reaches phi_max.
+    /// What a layer denser than phi_max does to the integral.
     #[serde(default)]
     pub below_packed: BelowPacked,
 }
@@ -102,6 +110,8 @@ mod tests {
 
     const LAW: LiSawamoto = LiSawamoto { kappa: 0.41, phi_max: 0.6, below_packed: BelowPacked::Published };
 
+    const CLIPPED: LiSawamoto = LiSawamoto { below_packed: BelowPacked::Clipped, ..LAW };
+
     fn lengths(law: LiSawamoto, faces: &[f64], phi: &[f64]) -> Vec<f64> {
         let mut lengths = vec![f64::NAN; faces.len()];
         law.fill(faces, phi, &mut lengths);
@@ -139,12 +149,12 @@ mod tests {
     #[test]
     fn fractions_above_the_maximum() {
         let (faces, phi) = ([0.0, 1.0, 2.0, 3.0, 4.0], [0.3, 0.66, 0.6, 0.0]);
-        // Published: the overfull cell takes a tenth of a cell away. Never negative.
-        let published = lengths(LAW, &faces, &phi);
-        for (length, expect) in published.into_iter().zip([0.0, 0.5, 0.4, 0.4, 1.4]) {
-            assert_relative_eq!(length, 0.41 * expect, max_relative = 1e-14);
+        // Clipped: the overfull cell counts as nothing. Published: it takes a tenth of a cell away.
+        for (law, expect) in [(CLIPPED, [0.0, 0.5, 0.5, 0.5, 1.5]), (LAW, [0.0, 0.5, 0.4, 0.4, 1.4])] {
+            for (length, expect) in lengths(law, &faces, &phi).into_iter().zip(expect) {
+                assert_relative_eq!(length, 0.41 * expect, max_relative = 1e-14);
+            }
         }
-        assert_eq!(lengths(LAW, &[0.0, 1.0, 1.1], &[0.63, 0.0])[1], 0.0);
         // Zero: the integral starts at the highest packed cell.
         let zero = lengths(LiSawamoto { below_packed: BelowPacked::Zero, ..LAW }, &faces, &phi);
         assert_eq!(zero[..4], [0.0; 4]);
@@ -154,9 +164,33 @@ mod tests {
     }
 
     #[test]
+    fn above_a_bed_denser_than_the_maximum_the_length_grows_from_its_top() {
+        // Three layers of 0.66 owe 0.3 of clear water: as published, none of the first 0.3 above them is turbulent.
+        let faces = [0.0, 1.0, 2.0, 3.0, 3.25, 3.5, 4.0];
+        let phi = [0.66, 0.66, 0.66, 0.0, 0.3, 0.0];
+        let clipped = lengths(CLIPPED, &faces, &phi);
+        assert_eq!(clipped[..4], [0.0; 4]);
+        for (length, expect) in clipped[4..].iter().zip([0.25, 0.375, 0.875]) {
+            assert_relative_eq!(*length, 0.41 * expect, max_relative = 1e-14);
+        }
+        // Never negative.
+        let published = lengths(LAW, &faces, &phi);
+        assert_eq!(published[..5], [0.0; 5]);
+        assert_relative_eq!(published[6], 0.41 * 0.575, max_relative = 1e-13);
+        assert_eq!(lengths(LAW, &[0.0, 1.0, 1.1], &[0.63, 0.0])[1], 0.0);
+    }
+
+    #[test]
+    fn where_nothing_is_denser_than_the_maximum_the_two_integrals_are_the_same_to_the_bit() {
+        let faces = graded(0.0, 1.0, 200, 1e-3);
+        let phi: Vec<f64> = faces[1..].iter().map(|z| 0.6 / (1.0 + (20.0 * (z - 0.5)).exp())).collect();
+        assert_eq!(lengths(CLIPPED, &faces, &phi), lengths(LAW, &faces, &phi));
+    }
+
+    #[test]
     fn the_option_reads_as_documented() {
         let law: LiSawamoto = toml::from_str("phi_max = 0.51\nbelow_packed = \"zero\"").unwrap();
         assert_eq!(law, LiSawamoto { kappa: 0.41, phi_max: 0.51, below_packed: BelowPacked::Zero });
-        assert_eq!(toml::from_str::<LiSawamoto>("phi_max = 0.51").unwrap().below_packed, BelowPacked::Published);
+        assert_eq!(toml::from_str::<LiSawamoto>("phi_max = 0.51").unwrap().below_packed, BelowPacked::Clipped);
     }
 }

@@ -7,9 +7,10 @@ pub use solve::{Solution, equations, run};
 
 use crate::case::tables::{BinghamFluid, BinghamKindModel, PlaneFlow, RegularisationTable, YieldGrid};
 use crate::closures::regularisation::Regularisation;
-use crate::model::{ClosedForm, Context, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
+use crate::model::{ClosedForm, Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
 use crate::models::exact::bingham::{BinghamPlane, plane};
 use crate::models::yielding::size;
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 
@@ -71,6 +72,11 @@ impl Solve for OnMesh<RegularisedPlane> {
 
     fn closed_form(&self) -> Option<Box<dyn ClosedForm>> {
         study::closed_form(&self.problem.plane)
+    }
+
+    fn drive(&self) -> Option<SteadyDrive> {
+        let plane = &self.problem.plane;
+        Some(SteadyDrive::of(plane.shear_scale() * plane.h, "more grid.cells"))
     }
 
     fn cells(&self) -> usize {

@@ -7,6 +7,7 @@
 
 mod advice;
 pub mod case;
+mod direction;
 mod exchange;
 mod felt;
 mod hold;
@@ -24,4 +25,4 @@ pub use case::FluidScheme;
 pub use exchange::Exchange;
 pub use felt::{Dragged, Felt};
 pub use problem::{Coupled, Surface};
-pub use run::{accepts, equations, run};
+pub use run::{equations, run};

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::case::{CoupledDiscrete, CoupledTables, FluidScheme};
-use super::{accepts, advice, equations, run, study};
+use super::{advice, equations, run, study};
 use crate::case::Fault;
 use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::{Contact, linear_spring};
@@ -12,8 +12,10 @@ use crate::closures::fluctuation::Fluctuation;
 use crate::closures::mixing_length::MixingLength;
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::side_wall::{self, SideWall};
+use crate::dem::drive::accepts;
 use crate::dem::{Bottom, GrainBed};
-use crate::model::{Context, Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
+use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
+use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Outcome};
 
 /// Grains in a fluid that flows over them. All values SI.
@@ -174,7 +176,7 @@ impl Model for Coupled {
 
 impl Solve for Coupled {
     fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
-        run(self, context.watch)
+        run(self, context)
     }
 
     fn describe(&self) -> Description {

@@ -1,6 +1,5 @@
 //! A coupled run: deposit the bed, start the fluid, follow both, sample.
 
-use std::ops::ControlFlow;
 use std::time::Instant;
 
 use super::exchange::Exchange;
@@ -11,19 +10,18 @@ use super::record::{BLOCKS, Record};
 use super::scene::{gravity, level, relief};
 use crate::closures::fluctuation::Fluctuation;
 use crate::column::ColumnError;
-use crate::dem::Bottom;
 use crate::dem::average::Averages;
 use crate::dem::checkpoint::{Reader, Saved, Writer};
-use crate::dem::deposit::{CHECKPOINT, Deposit, Stage, deposit};
+use crate::dem::drive::{self, Flow, Progress, Scene};
 use crate::dem::engine::Engine;
-use crate::dem::film::Film;
-use crate::dem::keep::{contact_equations, keep_pictures, law, refused, threads, unwritable};
+use crate::dem::grains::Grain;
+use crate::dem::keep::{contact_equations, law};
 use crate::dem::law::LinearSpring;
-use crate::dem::outcome::nothing;
-use crate::dem::{picture, stability};
+use crate::dem::stability;
+use crate::dem::{Bottom, GrainBed};
 use crate::models::coupled::{Coupled, Surface};
 use crate::result::CheckpointError;
-use crate::result::{Failure, Outcome, Snapshot, SolveError, Status, Watch, quantity as q};
+use crate::result::{Context, Failure, Outcome, SolveError, Status, quantity as q};
 use crate::runtime::rng::Stream;
 use crate::units::significant;
 
@@ -39,7 +37,6 @@ pub(super) struct Run<'a> {
     pub record: Record,
     /// what is held of the deep bed
     pub hold: Option<Hold>,
-    pub film: Film,
     /// steps of the grains in a period; periods in a sample and in the whole run, and those made
     pub steps: u64,
     pub sampled: u64,
@@ -62,77 +59,30 @@ impl From<ColumnError> for SolveError {
     }
 }
 
-/// Name of a case for its checkpoints.
-fn name(flow: &Coupled) -> [u8; 32] {
-    use sha2::{Digest, Sha256};
-    Sha256::digest(format!("{flow:?}").as_bytes()).into()
-}
+impl Scene for Coupled {
+    fn bed(&self) -> &GrainBed {
+        &self.bed
+    }
 
-/// Whether `bytes` are a checkpoint of `flow`, whole and sound as far as its frame.
-///
-/// # Errors
-/// Why not.
-pub fn accepts(flow: &Coupled, bytes: &[u8]) -> Result<(), CheckpointError> {
-    Reader::open(bytes, &name(flow)).map(drop)
+    fn fixed(&self) -> Option<Vec<Grain>> {
+        (self.bed.bottom == Bottom::Steps).then(|| relief(self))
+    }
 }
 
 /// Lets the bed of `flow` fall, starts the fluid, follows both and averages.
 ///
 /// # Errors
 /// [`Failure`] with the grain or the cell that cannot go on, and the averages so far.
-pub fn run(flow: &Coupled, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
-    let half_way = match watch.resumed(CHECKPOINT) {
-        Some(bytes) => Some(resume(flow, &bytes).map_err(refused)?),
-        None => None,
-    };
-    let falling = match half_way {
-        Some(HalfWay::Flowing(run)) => return go_on(*run, watch),
-        Some(HalfWay::Falling(stage, engine)) => Some((stage, *engine)),
-        None => None,
-    };
-    let fixed = (flow.bed.bottom == Bottom::Steps).then(|| relief(flow));
-    let what = Deposit { bed: &flow.bed, fixed: fixed.as_deref(), name: &name(flow) };
-    match deposit(what, falling, watch)? {
-        ControlFlow::Continue(engine) => go_on(Run::begin(flow, engine)?, watch),
-        ControlFlow::Break(()) => Ok(nothing(Status::Stopped)),
-    }
+pub fn run(flow: &Coupled, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+    drive::run::<Run<'_>>(flow, context)
 }
 
-/// A run that was interrupted.
-pub(super) enum HalfWay<'a> {
-    Falling(Stage, Box<Engine<LinearSpring>>),
-    Flowing(Box<Run<'a>>),
-}
+impl<'a> Flow<'a> for Run<'a> {
+    type Scene = Coupled;
+    const BETWEEN: u64 = 1;
 
-pub(super) fn resume<'a>(flow: &'a Coupled, bytes: &[u8]) -> Result<HalfWay<'a>, CheckpointError> {
-    let mut from = Reader::open(bytes, &name(flow))?;
-    let stage = Stage::read(&mut from)?;
-    let contact = law(&flow.bed.contact).map_err(|_| CheckpointError::OtherCase)?;
-    let engine = Engine::restore(&mut from, stage.domain(&flow.bed), contact, threads())?;
-    let half_way = match stage {
-        Stage::Below | Stage::Falling => HalfWay::Falling(stage, Box::new(engine)),
-        Stage::Flowing => HalfWay::Flowing(Box::new(Run::restore(flow, engine, &mut from)?)),
-    };
-    from.close()?;
-    Ok(half_way)
-}
-
-fn go_on(mut run: Run<'_>, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
-    let status = match run.follow(watch) {
-        Ok(status) => status,
-        Err(error) => {
-            let last = outcome::outcome(&mut run, Status::Failed).ok().map(Box::new);
-            return Err(Failure { error, last });
-        }
-    };
-    let outcome = outcome::outcome(&mut run, status)?;
-    keep_pictures(run.engine.grains(), &run.film, watch)?;
-    Ok(outcome)
-}
-
-impl<'a> Run<'a> {
     /// Starts the fluid over a bed that has come to rest.
-    pub(super) fn begin(flow: &'a Coupled, mut engine: Engine<LinearSpring>) -> Result<Self, SolveError> {
+    fn begin(flow: &'a Coupled, mut engine: Engine<LinearSpring>) -> Result<Self, SolveError> {
         let bed = &flow.bed;
         let contact = law(&bed.contact)?;
         let limit = stability::limit(&engine).step.min(stability::of_pair(&contact, 0.5 * bed.mass()));
@@ -158,12 +108,10 @@ impl<'a> Run<'a> {
         let area = bed.size[0] * bed.size[1];
         let shape = [0.0, exchange.cell_height(), area * exchange.cell_height(), bed.rho_p];
         let sampled = (flow.sample_period / flow.coupling_period).round().max(1.0) as u64;
-        let film = Film::new(bed, engine.grains(), flow.coupling_period);
         Ok(Self {
             flow,
             engine,
             exchange,
-            film,
             averages: Averages::empty(cells, BLOCKS, shape),
             record: Record::new(cells),
             steps: steps as u64,
@@ -177,64 +125,114 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Follows grains and fluid to the end.
-    pub(super) fn follow(&mut self, watch: &mut dyn Watch) -> Result<Status, SolveError> {
-        let (clock, begun) = (Instant::now(), self.made);
-        let frames = u64::from(self.flow.bed.discrete.frames);
-        while self.made < self.periods {
-            self.exchange.look(&self.engine, self.engine.settings().dt);
-            // What grains were given in the last period is booked before they are held.
-            if self.hold.as_mut().is_some_and(|hold| hold.look(self.made, &mut self.engine)) {
-                self.exchange.look(&self.engine, self.engine.settings().dt);
-            }
-            self.rates += self.exchange.rate();
-            limits::drag(self.flow, &self.engine, &self.exchange)?;
-            for _ in 0..self.steps {
-                if self.turn == 0 {
-                    self.stir();
-                }
-                self.turn -= 1;
-                self.engine.step(&self.exchange.felt)?;
-            }
-            self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps)?;
-            limits::fluid(self.flow, &self.exchange)?;
-            self.made += 1;
-            let sample = self.made.is_multiple_of(self.sampled);
-            if sample {
-                self.sample();
-            }
-            if self.film.is_due(self.made) {
-                self.film.see(self.engine.grains(), self.time());
-            }
-            if frames > 0 && self.made.is_multiple_of((self.periods / frames).max(1)) {
-                let number = self.made / (self.periods / frames).max(1);
-                let mut content = || picture::vtp(self.engine.grains(), self.time()).into_bytes();
-                let kept = watch.keep(&format!("grains_{number:05}.vtp"), true, &mut content);
-                kept.map_err(|error| unwritable(&error))?;
-            }
-            let rate = (self.made - begun) as f64 / clock.elapsed().as_secs_f64().max(1e-9);
-            let left = (self.periods - self.made) as f64 / rate;
-            let known = self.record.rows.last().map(|row| (&q::TRANSPORT_RATE, row[3]));
-            let precision = match self.record.precision().filter(|_| sample) {
-                Some(error) => format!(" ± {:.1} %", 100.0 * error),
-                None => String::new(),
-            };
-            let stage = format!("{:.1} s of flow, {left:.0} s left{precision},", self.time());
-            let fraction = self.made as f64 / self.periods as f64;
-            let stop = watch.see(&Snapshot { stage: &stage, fraction, quantity: known }).is_break();
-            let kept = watch.keep(CHECKPOINT, stop, &mut || self.checkpoint());
-            kept.map_err(|error| unwritable(&error))?;
-            if stop {
-                return Ok(Status::Stopped);
-            }
-            let good = |wanted: f64| self.record.precision().is_some_and(|error| error <= wanted);
-            if sample && self.flow.known_to.is_some_and(good) {
-                break;
-            }
+    fn restore(
+        flow: &'a Coupled,
+        engine: Engine<LinearSpring>,
+        from: &mut Reader<'_>,
+    ) -> Result<Self, CheckpointError> {
+        let mut counts = [0; 6];
+        for count in &mut counts {
+            *count = from.whole()?;
         }
+        let [steps, sampled, periods, made, turn, draws] = counts;
+        let rates = from.number()?;
+        let exchange = Exchange::restore(flow, engine.grains().len(), from)?;
+        let cells = exchange.phi().len();
+        let mut averages = Averages::empty(cells, BLOCKS, [0.0; 4]);
+        averages.fill(from)?;
+        let record = Record::read(from, cells)?;
+        let hold = Hold::restore(flow, &engine, from)?;
+        Ok(Self { flow, engine, exchange, averages, record, hold, steps, sampled, periods, made, turn, draws, rates })
+    }
+
+    fn save(&self, to: &mut Writer) {
+        for count in [self.steps, self.sampled, self.periods, self.made, self.turn, self.draws] {
+            to.whole(count);
+        }
+        to.number(self.rates);
+        self.exchange.save(to);
+        self.averages.save(to);
+        self.record.write(to);
+        self.hold.iter().for_each(|hold| hold.save(to));
+    }
+
+    fn scene(&self) -> &'a Coupled {
+        self.flow
+    }
+
+    fn engine(&self) -> &Engine<LinearSpring> {
+        &self.engine
+    }
+
+    fn advances(&self) -> (u64, u64) {
+        (self.periods, self.made)
+    }
+
+    fn period(&self) -> f64 {
+        self.flow.coupling_period
+    }
+
+    /// One coupling period.
+    fn advance(&mut self) -> Result<(), SolveError> {
+        self.exchange.look(&self.engine, self.engine.settings().dt);
+        // What grains were given in the last period is booked before they are held.
+        if self.hold.as_mut().is_some_and(|hold| hold.look(self.made, &mut self.engine)) {
+            self.exchange.look(&self.engine, self.engine.settings().dt);
+        }
+        self.rates += self.exchange.rate();
+        limits::drag(self.flow, &self.engine, &self.exchange)?;
+        for _ in 0..self.steps {
+            if self.turn == 0 {
+                self.stir();
+            }
+            self.turn -= 1;
+            self.engine.step(&self.exchange.felt)?;
+        }
+        self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps)?;
+        limits::fluid(self.flow, &self.exchange)?;
+        self.made += 1;
+        if self.is_sampled() {
+            self.sample();
+            self.downhill(false)?;
+        }
+        Ok(())
+    }
+
+    fn progress(&self, made: u64, since: Instant) -> Progress {
+        let rate = made as f64 / since.elapsed().as_secs_f64().max(1e-9);
+        let left = (self.periods - self.made) as f64 / rate;
+        let precision = match self.record.precision().filter(|_| self.is_sampled()) {
+            Some(error) => format!(" ± {:.1} %", 100.0 * error),
+            None => String::new(),
+        };
+        let stage = format!("{:.1} s of flow, {left:.0} s left{precision},", self.time());
+        Progress { stage, quantity: self.record.rows.last().map(|row| (&q::TRANSPORT_RATE, row[3])) }
+    }
+
+    fn is_known(&self) -> bool {
+        let good = |wanted: f64| self.record.precision().is_some_and(|error| error <= wanted);
+        self.is_sampled() && self.flow.known_to.is_some_and(good)
+    }
+
+    fn end(&mut self) -> Result<(), SolveError> {
         self.exchange.look(&self.engine, self.engine.settings().dt);
         limits::grains(self.flow, &self.engine, &self.exchange)?;
-        Ok(Status::Done)
+        self.downhill(true)
+    }
+
+    fn advised(&self, error: SolveError) -> SolveError {
+        self.hinted(error)
+    }
+
+    fn outcome(&mut self, status: Status) -> Result<Outcome, SolveError> {
+        outcome::outcome(self, status)
+    }
+}
+
+impl Run<'_> {
+    /// Whether the last period ended a sample.
+    fn is_sampled(&self) -> bool {
+        self.made.is_multiple_of(self.sampled)
     }
 
     /// Simulated time [s].
@@ -290,59 +288,6 @@ impl<'a> Run<'a> {
         let (grains, felt) = (self.engine.grains(), &self.exchange.felt);
         let drag = |i: usize| felt.drag(grains.ids[i], grains.position(i)[2], grains.velocity(i)).force;
         self.averages.sample(&self.engine, block, drag);
-    }
-
-    pub(super) fn checkpoint(&self) -> Vec<u8> {
-        let mut to = Writer::default();
-        to.whole(Stage::Flowing.number());
-        self.engine.save(&mut to);
-        for count in [self.steps, self.sampled, self.periods, self.made, self.turn, self.draws] {
-            to.whole(count);
-        }
-        to.number(self.rates);
-        self.exchange.save(&mut to);
-        self.averages.save(&mut to);
-        self.record.write(&mut to);
-        self.hold.iter().for_each(|hold| hold.save(&mut to));
-        self.film.save(&mut to);
-        to.seal(&name(self.flow))
-    }
-
-    /// Reads the rest of a checkpoint of the flow.
-    fn restore(
-        flow: &'a Coupled,
-        engine: Engine<LinearSpring>,
-        from: &mut Reader<'_>,
-    ) -> Result<Self, CheckpointError> {
-        let mut counts = [0; 6];
-        for count in &mut counts {
-            *count = from.whole()?;
-        }
-        let [steps, sampled, periods, made, turn, draws] = counts;
-        let rates = from.number()?;
-        let exchange = Exchange::restore(flow, engine.grains().len(), from)?;
-        let cells = exchange.phi().len();
-        let mut averages = Averages::empty(cells, BLOCKS, [0.0; 4]);
-        averages.fill(from)?;
-        let record = Record::read(from, cells)?;
-        let hold = Hold::restore(flow, &engine, from)?;
-        let film = Film::restore(from, engine.grains().len())?;
-        Ok(Self {
-            flow,
-            engine,
-            exchange,
-            averages,
-            record,
-            hold,
-            film,
-            steps,
-            sampled,
-            periods,
-            made,
-            turn,
-            draws,
-            rates,
-        })
     }
 }
 

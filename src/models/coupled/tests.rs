@@ -2,7 +2,7 @@
 
 use super::exchange::Exchange;
 use super::record::Record;
-use super::run::{HalfWay, Run, resume};
+use super::run::Run;
 use super::scene::{gravity, level, relief};
 use super::{Felt, run};
 use crate::closures::contact::{LinearSpring, Tension};
@@ -15,12 +15,12 @@ use crate::dem::Bottom;
 use crate::dem::GrainBed;
 use crate::dem::deposit::{Deposit, deposit};
 use crate::dem::domain::Domain;
+use crate::dem::drive::{self, HalfWay, accepts};
 use crate::dem::engine::{Engine, Settings};
 use crate::dem::grains::Grain;
 use crate::dem::keep::law;
 use crate::models::coupled::{Coupled, Surface};
-use crate::result::{Quiet, Snapshot, Status, Watch, quantity as q};
-use crate::runtime::pool;
+use crate::result::{Checkpoints, Context, Quiet, Status, quantity as q};
 use approx::assert_relative_eq;
 use std::ops::ControlFlow;
 
@@ -165,10 +165,10 @@ fn eddies_turn_over_with_the_water_and_differ_from_grain_to_grain() {
     let case = flow();
     let fixed = relief(&case);
     let what = Deposit { bed: &case.bed, fixed: Some(&fixed), name: &[0; 32] };
-    let Ok(ControlFlow::Continue(engine)) = deposit(what, None, &mut Quiet) else {
+    let Ok(ControlFlow::Continue(engine)) = deposit(what, None, &mut Context::new(&mut Quiet)) else {
         panic!("the bed does not rest");
     };
-    let mut run = Run::begin(&case, engine).unwrap();
+    let mut run = <Run<'_> as drive::Flow<'_>>::begin(&case, engine).unwrap();
     let [_, depth, speed] = run.water();
     assert!(depth > 0.5 * D && depth < 6.0 * D && speed > 0.05, "{depth} {speed}");
     let mut eddies = || {
@@ -284,17 +284,17 @@ struct At {
     bytes: Vec<u8>,
 }
 
-impl Watch for At {
-    fn see(&mut self, _: &Snapshot<'_>) -> ControlFlow<()> {
-        ControlFlow::Continue(())
-    }
-
-    fn keep(&mut self, name: &str, _: bool, content: &mut dyn FnMut() -> Vec<u8>) -> std::io::Result<()> {
-        self.calls += usize::from(name == "checkpoint.bin");
+impl Checkpoints for At {
+    fn keep(&mut self, _: bool, content: &mut dyn FnMut() -> Vec<u8>) -> std::io::Result<()> {
+        self.calls += 1;
         if self.calls == self.wanted {
             self.bytes = content();
         }
         Ok(())
+    }
+
+    fn resumed(&mut self) -> Option<Vec<u8>> {
+        None
     }
 }
 
@@ -303,31 +303,30 @@ fn a_run_that_goes_on_makes_the_same_bits() {
     let case = flow();
     let fixed = relief(&case);
     let what = Deposit { bed: &case.bed, fixed: Some(&fixed), name: &[0; 32] };
-    let Ok(ControlFlow::Continue(engine)) = deposit(what, None, &mut Quiet) else {
+    let Ok(ControlFlow::Continue(engine)) = deposit(what, None, &mut Context::new(&mut Quiet)) else {
         panic!("the bed does not rest");
     };
-    let mut whole = Run::begin(&case, engine).unwrap();
+    let mut whole = drive::Run::<Run<'_>>::begin(&case, engine).unwrap();
     let mut at = At { calls: 0, wanted: 17, bytes: Vec::new() };
-    whole.follow(&mut at).unwrap();
+    whole.follow(&mut Context::new(&mut Quiet).checkpoints(&mut at)).unwrap();
     assert_eq!(at.calls, 40);
     let middle = at.bytes;
     for threads in [1, 2] {
-        pool::want(threads);
-        let Ok(HalfWay::Flowing(mut resumed)) = resume(&case, &middle) else { panic!("not resumed") };
-        resumed.follow(&mut Quiet).unwrap();
+        let half_way = drive::resume::<Run<'_>>(&case, &middle, threads);
+        let Ok(HalfWay::Flowing(mut resumed)) = half_way else { panic!("not resumed") };
+        resumed.follow(&mut Context::new(&mut Quiet)).unwrap();
         assert!(resumed.checkpoint() == whole.checkpoint(), "{threads} threads");
     }
-    pool::want(1);
     let mut damaged = middle.clone();
     damaged[1000] ^= 1;
-    assert!(super::accepts(&case, &middle).is_ok() && super::accepts(&case, &damaged).is_err());
-    assert!(super::accepts(&Coupled { eta: 2e-3, ..case }, &middle).is_err());
-    assert!(super::accepts(&case, &middle[..middle.len() - 9]).is_err());
+    assert!(accepts(&case, &middle).is_ok() && accepts(&case, &damaged).is_err());
+    assert!(accepts(&Coupled { eta: 2e-3, ..case }, &middle).is_err());
+    assert!(accepts(&case, &middle[..middle.len() - 9]).is_err());
 }
 
 #[test]
 fn a_flow_over_a_small_bed_carries_grains_and_closes_its_balances() {
-    let outcome = run(&flow(), &mut Quiet).unwrap();
+    let outcome = run(&flow(), &mut Context::new(&mut Quiet)).unwrap();
     assert_eq!(outcome.status, Status::Done);
     let result = |quantity: &crate::result::Quantity| outcome.results.get(quantity.name).unwrap();
     assert!(result(&q::TRANSPORT_RATE) > 0.0);

@@ -6,7 +6,8 @@ use super::bagnold::{equations, run};
 use crate::case::Fault;
 use crate::case::tables::{BagnoldModel, Film, FilmClosures, FilmFlow, Grains, Grid, SlopeDefinition};
 use crate::closures::friction::{self, Friction, MuI};
-use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 

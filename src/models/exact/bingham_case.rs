@@ -2,7 +2,8 @@
 
 use super::bingham::{equations, run};
 use crate::case::tables::{BinghamFluid, BinghamModel, Grid, PlaneFlow};
-use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 

@@ -13,8 +13,6 @@ pub mod ouriemi;
 
 use std::ops::ControlFlow;
 
-use serde_json::Map;
-
 use crate::numerics::root::NoRoot;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch,
@@ -63,7 +61,7 @@ pub(in crate::models) fn outcome(
 ) -> Result<Outcome, Failure> {
     let series = if history.is_empty() { None } else { Some(residuals(history)?) };
     let status = if profile.is_some() { Status::Done } else { Status::Stopped };
-    Ok(Outcome { status, profile, series, results, balances, validity, regularisation: Map::new() })
+    Ok(Outcome { status, profile, series, results, balances, validity, ..Outcome::stopped() })
 }
 
 /// The residual history of a root finder.

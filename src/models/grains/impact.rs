@@ -168,6 +168,7 @@ pub fn run(impact: &Impact, _: &mut dyn Watch) -> Result<Outcome, Failure> {
         balances,
         validity: Vec::new(),
         regularisation: serde_json::Map::new(),
+        ..Outcome::stopped()
     })
 }
 

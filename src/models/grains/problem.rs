@@ -8,7 +8,9 @@ use crate::case::Fault;
 use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::{Contact, LinearSpring, linear_spring};
 use crate::dem::GrainBed;
-use crate::model::{Context, Description, Faults, Model, ModelInfo, Solve};
+use crate::dem::drive::accepts;
+use crate::model::{Description, Faults, Model, ModelInfo, Solve};
+use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Outcome};
 
 /// The impact of one sphere. All values SI.
@@ -103,7 +105,7 @@ impl Model for GrainBed {
 
 impl Solve for GrainBed {
     fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
-        bed::run(self, context.watch)
+        bed::run(self, context)
     }
 
     fn describe(&self) -> Description {
@@ -116,7 +118,7 @@ impl Solve for GrainBed {
     }
 
     fn accepts(&self, checkpoint: &[u8]) -> Option<Result<(), CheckpointError>> {
-        Some(bed::accepts(self, checkpoint))
+        Some(accepts(self, checkpoint))
     }
 }
 

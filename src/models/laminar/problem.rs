@@ -5,11 +5,12 @@ use crate::case::tables::{Bed, BedClosures, Fluid, Grains, LaminarFlow, LaminarM
 use crate::closures::friction;
 use crate::closures::regularisation::Regularisation;
 use crate::model::{
-    ClosedForm, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, Term,
-    TermTest,
+    ClosedForm, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
+    Term, TermTest,
 };
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
 use crate::models::yielding::size;
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 use crate::units::significant;
@@ -97,6 +98,10 @@ impl Solve for OnMesh<RegularisedBed> {
 
     fn closed_form(&self) -> Option<Box<dyn ClosedForm>> {
         study::closed_form(&self.problem)
+    }
+
+    fn drive(&self) -> Option<SteadyDrive> {
+        Some(SteadyDrive::of(self.problem.bed.velocity_scale(), "more grid.cells"))
     }
 
     fn cells(&self) -> usize {

@@ -5,12 +5,12 @@ use std::ops::ControlFlow;
 use serde_json::{Map, json};
 
 use super::cavity::Cavity;
-use super::field::Field;
 use super::newton::{Solved, Stalled};
 use super::outcome::history;
 use super::{dual, newton};
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::models::section::{CavityFlow, Method};
+use crate::result::Field;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Results, Snapshot, SolveError, Status, TableError, Watch, quantity as q,
 };
@@ -53,10 +53,6 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
     }
     let profile = profile(flow, &cavity, &psi)?;
     let field = field(flow, &cavity, &psi, &stresses);
-    for (name, content) in [("section.csv", field.csv()), ("section.vts", field.vts())] {
-        // A file that cannot be written is the folder's error, which every other file of the run meets, too.
-        let _ = watch.keep(name, true, &mut || content.clone().into_bytes());
-    }
     let series = history(&solved.history)?;
     let how = "sum of the forces that are left on the nodes over that of the drive";
     let mut regularisation = Map::new();
@@ -72,6 +68,8 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
         balances: vec![Balance { name: "momentum".into(), relative: solved.imbalance, how: how.into() }],
         validity: Vec::new(),
         regularisation,
+        field: Some(field),
+        ..Outcome::stopped()
     })
 }
 

@@ -13,7 +13,6 @@ mod cavity_outcome;
 pub mod dual;
 pub mod duct;
 pub mod element;
-mod field;
 pub mod fit;
 pub mod full;
 pub mod mesh;

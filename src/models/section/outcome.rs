@@ -5,13 +5,13 @@ use std::ops::ControlFlow;
 use serde_json::{Map, json};
 
 use super::duct::{Duct, Filling};
-use super::field::Field;
 use super::full::Full;
 use super::newton::{self, Stalled};
 use super::numbers::Numbers;
 use super::solve::Solution;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::models::section::{Contents, DuctFlow, Method, Outline};
+use crate::result::Field;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Results, Series, Snapshot, SolveError, Status, TableError, Validity, Watch,
     quantity as q, quantity::Quantity,
@@ -91,10 +91,6 @@ pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     let plane = (flow.outline != Outline::Planes).then(|| plane(&duct, cells, flow)).flatten();
     let profile = profile(flow, &solution, plane)?;
     let field = field(flow, &solution, &numbers);
-    for (name, content) in [("section.csv", field.csv()), ("section.vts", field.vts())] {
-        // A file that cannot be written is the folder's error, which every other file of the run meets, too.
-        let _ = watch.keep(name, true, &mut || content.clone().into_bytes());
-    }
     let solved = &solution.solved;
     let series = history(&solved.history)?;
     let balance = |name: &str, relative: f64, how: &str| Balance { name: name.into(), relative, how: how.into() };
@@ -115,6 +111,8 @@ pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outco
         balances,
         validity: validity(flow),
         regularisation,
+        field: Some(field),
+        ..Outcome::stopped()
     })
 }
 

@@ -6,9 +6,10 @@ use crate::case::Fault;
 use crate::case::tables::LaminarFlow;
 use crate::closures::friction;
 use crate::closures::regularisation::{Regularisation, Smoothing};
-use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
+use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
 use crate::models::yielding::size;
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 
 /// Outline of a section whose height is 1.
@@ -258,6 +259,10 @@ impl Solve for Duct {
         self.0.study()
     }
 
+    fn drive(&self) -> Option<SteadyDrive> {
+        self.0.drive()
+    }
+
     fn cells(&self) -> usize {
         self.0.cells
     }
@@ -274,6 +279,10 @@ impl Solve for DuctBed {
 
     fn study(&self) -> StudyPlan {
         self.0.study()
+    }
+
+    fn drive(&self) -> Option<SteadyDrive> {
+        self.0.drive()
     }
 
     fn cells(&self) -> usize {
@@ -296,6 +305,10 @@ impl Solve for OnMesh<DuctFlow> {
 
     fn study(&self) -> StudyPlan {
         study::plan(study::duct(&self.problem), self.problem.along.is_some())
+    }
+
+    fn drive(&self) -> Option<SteadyDrive> {
+        Some(SteadyDrive::of(self.problem.shear_scale() * self.problem.h, "more grid.cells"))
     }
 
     fn cells(&self) -> usize {

@@ -5,7 +5,8 @@ use super::{equations, run, study};
 use crate::case::Fault;
 use crate::closures::Info;
 use crate::closures::kinetic::{FRICTIONAL_COLLISIONAL, Granular, Kinetic, garzo_dufty};
-use crate::model::{Context, Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
+use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 
 /// Grains between two walls, without fluid or gravity. All values SI.

@@ -16,9 +16,10 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::rearrangement::Rearrangement;
 use crate::closures::suspension::Suspension;
 use crate::model::{
-    COLLISIONS, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan, Term,
-    TermTest, TurbulentScene,
+    COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
+    Term, TermTest, TurbulentScene,
 };
+use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Outcome};
 use crate::units::significant;
@@ -261,6 +262,10 @@ impl Solve for OnMesh<SheetFlow> {
 
     fn study(&self) -> StudyPlan {
         study::plan(&self.problem, self.cells)
+    }
+
+    fn drive(&self) -> Option<SteadyDrive> {
+        Some(SteadyDrive::of(self.problem.velocity_scale(), "another model.method, or more grid.cells"))
     }
 
     fn cells(&self) -> usize {

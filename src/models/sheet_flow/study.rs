@@ -52,6 +52,10 @@ fn focus(flow: &SheetFlow) -> Focus {
             slopes_from: 1e-2,
             creep: true,
             rule: None,
+            remarks: &[(
+                "mesh",
+                "the exact yield has one of its own: thickness and solid fraction keep its error, the rate is on one mesh",
+            )],
         }),
         meshes: Some(Meshes {
             cells: &[40, 80, 160, 320, 640, 1280],

@@ -12,9 +12,10 @@ use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
 use crate::closures::mixing_length::{self, BelowPacked, MixingLength};
 use crate::closures::{Info, drag};
 use crate::model::{
-    BULK_FRICTION, Context, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, StudyPlan,
+    BULK_FRICTION, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
     TurbulentScene,
 };
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::units::significant;
 
@@ -231,6 +232,16 @@ impl Solve for OnMesh<TwoFluid> {
 
     fn study(&self) -> StudyPlan {
         study::plan(&self.problem)
+    }
+
+    fn drive(&self) -> Option<SteadyDrive> {
+        let flow = &self.problem;
+        let (at_s, hint) = match flow.state {
+            State::Steady => (None, "model.state = \"transient\", which follows the flow from rest"),
+            State::Transient => (Some(flow.pace.0), "a smaller solver.tolerance, or more grid.cells"),
+        };
+        let steady = flow.beta > 0.0 && flow.oscillation.is_none();
+        steady.then(|| SteadyDrive { velocity_scale: flow.velocity_scale(), at_s, hint })
     }
 
     fn cells(&self) -> usize {

@@ -58,6 +58,7 @@ fn focus(flow: &TwoFluid) -> Focus {
             slopes_from: 1e-1,
             creep: false,
             rule: None,
+            remarks: &[],
         }),
         meshes: Some(if steady { meshes } else { in_time }),
     }

@@ -2,8 +2,9 @@
 
 use super::{Listening, MISFIT, Request, Target, report};
 use crate::case::nearest;
-use crate::model::{Context, Registry};
+use crate::model::Registry;
 use crate::numerics::least_squares::{self, Fit};
+use crate::result::Context;
 use crate::result::{ErrorReport, Profile, Snapshot, Watch};
 use crate::study::{Observer, StudyError};
 

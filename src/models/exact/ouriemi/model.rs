@@ -3,10 +3,9 @@
 use super::{equations, run};
 use crate::case::tables::{Bed, BedClosures, Fluid, Grains, Grid, LaminarFlow, OuriemiModel};
 use crate::closures::friction;
-use crate::model::{
-    Context, Description, Effort, Faults, Flow, LaminarScene, Model, ModelInfo, Offer, OnMesh, Solve, Term,
-};
+use crate::model::{Description, Effort, Faults, Flow, LaminarScene, Model, ModelInfo, Offer, OnMesh, Solve, Term};
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
+use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 

@@ -1,4 +1,4 @@
-//! The fields of a section as files: for ParaView, and as the table from which the report draws them.
+//! Fields of an outcome that are no profile: over a section, and of grains seen from the side.
 
 use std::fmt::Write;
 
@@ -55,5 +55,24 @@ impl Field {
             text += "</DataArray>\n";
         }
         text + "</PointData>\n</Piece>\n</StructuredGrid>\n</VTKFile>\n"
+    }
+}
+
+/// Grains of one slice along the flow, the farthest from the viewer first: enough to draw a side view.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SideView {
+    /// x, z, radius [m] and velocity along the flow [m/s] of each
+    pub grains: Vec<[f64; 4]>,
+}
+
+impl SideView {
+    /// The table.
+    #[must_use]
+    pub fn csv(&self) -> String {
+        let mut text = String::from("x_m,z_m,radius_m,u_particle_m_s\n");
+        for [x, z, radius, u] in &self.grains {
+            let _ = writeln!(text, "{x:e},{z:e},{radius:e},{u:e}");
+        }
+        text
     }
 }

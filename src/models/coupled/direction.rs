@@ -1,0 +1,52 @@
+//! Whether the water goes where the slope pulls it, and what to change where it does not.
+
+use super::run::Run;
+use crate::closures::mixing_length::{BelowPacked, MixingLength};
+use crate::result::SolveError;
+
+/// Samples of a mean that is looked at on the way.
+const LATE: usize = 10;
+/// Column of a sample with the mean velocity of the water.
+const SPEED: usize = 6;
+
+/// What helps where the published integral leaves no turbulence in the lowest water.
+const DENSE: &str = "closures.mixing_length.below_packed = \"clipped\", or a closures.mixing_length.phi_max well above the solid fraction of the bed: over a bed denser than that, the lowest water has no turbulence and runs away";
+/// What helps grains that such water throws against each other.
+const THROWN: &str = "closures.mixing_length.below_packed = \"clipped\" if the bed is denser than closures.mixing_length.phi_max, for then the lowest water has no turbulence and runs away; else stiffer contacts (closures.contact.k_n) or slower grains";
+/// What helps elsewhere.
+const COARSE: &str = "thicker slices of the fluid (discrete.slice), or a larger cell (flow.length, flow.width)";
+
+impl Run<'_> {
+    /// Refuses water that on the mean flows against the slope: over the last samples, or, at the `end`, over all that are
+    /// averaged.
+    pub(super) fn downhill(&self, end: bool) -> Result<(), SolveError> {
+        let rows = &self.record.rows;
+        let first = self.record.transient().0;
+        let averaged = rows.iter().take_while(|row| (row[1] as usize) < first).count();
+        let late = (rows.len() >= LATE).then(|| rows.len() - LATE);
+        for from in late.into_iter().chain(end.then_some(averaged)).filter(|from| *from < rows.len()) {
+            let mean = rows[from..].iter().map(|row| row[SPEED]).sum::<f64>() / (rows.len() - from) as f64;
+            if mean < 0.0 {
+                let start = if from > 0 { rows[from - 1][0] } else { 0.0 };
+                let hint = if self.published() { DENSE } else { COARSE };
+                return Err(SolveError::FlowsUphill { velocity_m_s: mean, over_s: Some([start, self.time()]), hint });
+            }
+        }
+        Ok(())
+    }
+
+    /// The error, with what helps where water without turbulence may be behind it.
+    pub(super) fn hinted(&self, error: SolveError) -> SolveError {
+        match error {
+            SolveError::Grains { code: code @ "overlap", message, .. } if self.published() => {
+                SolveError::Grains { code, message, hint: THROWN }
+            }
+            other => other,
+        }
+    }
+
+    /// Whether a layer denser than phi_max takes turbulence away from what lies above it.
+    fn published(&self) -> bool {
+        matches!(self.flow.mixing_length, MixingLength::LiSawamoto(law) if law.below_packed != BelowPacked::Clipped)
+    }
+}
