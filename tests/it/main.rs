@@ -12,6 +12,7 @@ mod cli;
 mod compare;
 mod converge;
 mod coupled;
+mod docs;
 mod folder;
 mod goldens;
 mod grains;
