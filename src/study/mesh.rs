@@ -197,7 +197,7 @@ fn figure(focus: &Focus, kinds: &[Series<'_>]) -> Figure {
         }
         _ => {
             let titles = focus.numbers.iter().map(|number| (number.column(), number.quantity.title));
-            let titles: Vec<(String, &str)> = std::iter::once((L2.to_owned(), "velocity (L²)")).chain(titles).collect();
+            let titles: Vec<(String, &str)> = std::iter::once((L2.to_owned(), "velocity (L2)")).chain(titles).collect();
             let curves = kinds
                 .iter()
                 .flat_map(|kind| titles.iter().enumerate().map(move |(i, (name, title))| drawn(title, i, kind, name)));
