@@ -44,7 +44,7 @@ fn water_that_flows_uphill_is_a_failure_that_says_what_to_change() {
     assert!(message.contains("mean velocity is -") && message.contains(" s to "), "{message}");
     assert!(error["hint"].as_str().unwrap().contains("below_packed = \"clipped\""), "{error}");
     // What there was until then is kept.
-    assert!(number(&found, "mean_velocity_m_s").is_some() && number(&found, "averaged_time_s") > Some(0.5), "{found}");
+    assert!(number(&found, "mean_velocity_m_s").is_some() && number(&found, "averaged_time_s") > Some(0.0), "{found}");
 }
 
 #[test]
