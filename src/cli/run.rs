@@ -13,7 +13,7 @@ use super::progress::Progress;
 use super::{CaseArgs, CliError, answer, say};
 use crate::discrete::bed::accepts;
 use crate::discrete::couple;
-use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
+use crate::output::{CHECKPOINT, Folder, Mode, Written, default_folder, write_failure, write_outcome, write_running};
 use crate::problem::{Model, Problem};
 use crate::result::{Cost, Snapshot, Status, Summary, Watch, quantity};
 use crate::runtime::{cost::peak_memory_mb, pool};
@@ -56,11 +56,11 @@ impl Run {
         let (case, problem) = self.case.load()?;
         // Listening begins before there is anything that Ctrl-C could leave half done.
         let progress = Progress::new(self.quiet);
-        let out = self.out.unwrap_or_else(|| PathBuf::from("runs").join(&case.name));
+        let out = self.out.unwrap_or_else(|| default_folder(&case.name));
         let mode = Mode { force: self.force, resume: self.resume };
-        let checkpoint = if self.resume { Self::checkpoint(&out, &problem)? } else { None };
         pool::want(usize::from(self.threads));
         let folder = Folder::prepare(&out, &case.resolved(), mode)?;
+        let checkpoint = if self.resume { Self::checkpoint(folder.path(), &problem)? } else { None };
         let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
         let solving = Instant::now();
         let going_on = checkpoint.is_some();

@@ -6,14 +6,17 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::folder::{FIGURES, Folder, OutputError, holds_only};
+use super::error::OutputError;
+use super::folder::Folder;
+use super::ours::{Kind, holds_only};
+use super::path::resolve;
 use super::run::{draw_png, read_summary};
 use super::study;
 use crate::compare::{Comparison, Request};
 use crate::result::{Cost, Provenance, Status};
 
-/// Files that the folder of a comparison may hold; anything else in it is not ours.
-pub(super) const OURS: &[&str] = &[RECORD, "norms.csv", "report.html", FIGURES];
+/// Files that the folder of a comparison may hold.
+pub(super) const FILES: &[&str] = &[RECORD, "norms.csv", "report.html"];
 /// Everything that a comparison has to say; the folder is known by it.
 const RECORD: &str = "compare.json";
 
@@ -38,13 +41,13 @@ pub(super) fn stands_in(folder: &Path) -> bool {
 /// # Errors
 /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
 pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Result<Folder, OutputError> {
-    Folder::claim(target, |folder| {
+    Folder::claim(&resolve(target)?, Kind::Comparison, |folder| {
         let Some(record) = read(folder) else {
             // A run or a study is ours as well, but no comparison takes its place.
             let holds = if study::stands_in(folder) { "study" } else { read_summary(folder).map(|_| "run")? };
             return Err(OutputError::OtherKind { folder: folder.into(), holds, wanted: "comparison" });
         };
-        holds_only(folder, OURS)?;
+        holds_only(folder, Kind::Comparison)?;
         if force || record.request == *request {
             return Ok(Status::Done);
         }

@@ -4,7 +4,9 @@ use std::fs;
 use std::io::BufReader;
 use std::path::Path;
 
-use super::folder::{Folder, OutputError, entries, write_whole};
+use super::error::OutputError;
+use super::folder::{Folder, write_whole};
+use super::ours::entries;
 use crate::result::Motion;
 
 /// State from which a run of grains goes on.

@@ -8,8 +8,10 @@ use std::process;
 use serde_json::Map;
 use sha2::{Digest, Sha256};
 
-use super::folder::{Folder, OutputError, write_whole};
+use super::error::OutputError;
+use super::folder::{Folder, write_whole};
 use super::grains::read_motion;
+use super::ours::FIGURES;
 use crate::case::Case;
 use crate::plot::{self, Figure, Page};
 use crate::problem::Problem;
@@ -233,21 +235,25 @@ fn picture(place: &Path, summary: &Summary) -> Option<(String, &'static str)> {
 
 /// Draws figures as PNG into `place`/figures; `shown` is what that place is called in the paths that are returned.
 pub(super) fn draw_png(place: &Path, shown: &Path, figures: &[Figure]) -> Result<Vec<PathBuf>, OutputError> {
-    let folder = place.join("figures");
+    let folder = place.join(FIGURES);
+    // A link would lead to somebody's files.
+    if fs::symlink_metadata(&folder).is_ok_and(|known| !known.is_dir()) {
+        return Err(OutputError::NotAFolder(folder));
+    }
     fs::create_dir_all(&folder).map_err(|error| OutputError::Interrupted { path: folder.clone(), error })?;
     figures.iter().map(|figure| draw_one(place, shown, &figure.stem, |path| plot::png(figure, path))).collect()
 }
 
 /// Draws one picture into `place`/figures and returns what its path is called.
-fn draw_one(
+pub(super) fn draw_one(
     place: &Path,
     shown: &Path,
     stem: &str,
     draw: impl FnOnce(&Path) -> Result<(), plot::PlotError>,
 ) -> Result<PathBuf, OutputError> {
-    let name = format!("figures/{stem}.png");
+    let name = format!("{FIGURES}/{stem}.png");
     // Drawn beside and renamed, as every file: the ending tells the format.
-    let partial = place.join("figures").join(format!(".{stem}.part-{}.png", process::id()));
+    let partial = place.join(FIGURES).join(format!(".{stem}.part-{}.png", process::id()));
     let drawn = draw(&partial).map_err(io::Error::other).and_then(|()| fs::rename(&partial, place.join(&name)));
     if let Err(error) = drawn {
         let _ = fs::remove_file(&partial);

@@ -9,19 +9,20 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::comparison;
-use super::folder::{self, FIGURES, Folder, Mode, OutputError, entries, holds_only};
+use super::error::OutputError;
+use super::folder::{Folder, Mode};
+use super::ours::{self, Kind, POINTS, entries, holds_only};
+use super::path::resolve;
 use super::run::{draw_png, read_summary};
 use crate::plot::Figure;
 use crate::result::Status;
 
-/// Files that the folder of a study may hold; anything else in it is not ours.
-pub(super) const OURS: &[&str] = &[RECORD, TABLE, PARAMETERS, "report.html", FIGURES, POINTS];
+/// Files that the folder of a study may hold.
+pub(super) const FILES: &[&str] = &[RECORD, TABLE, PARAMETERS, "report.html"];
 /// Everything that a study has to say; the folder is known by it.
 const RECORD: &str = "study.json";
 const TABLE: &str = "points.csv";
 const PARAMETERS: &str = "parameters.csv";
-/// The folder of the run folders.
-pub(super) const POINTS: &str = "points";
 
 /// What tells one study from another, and how it ended.
 #[derive(Deserialize)]
@@ -51,12 +52,13 @@ impl StudyFolder {
     /// # Errors
     /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
     pub fn prepare(target: &Path, plan: &str, mode: Mode) -> Result<Self, OutputError> {
+        let target = &resolve(target)?;
         if mode.resume && !mode.force && read(target).is_some_and(|record| record.plan_sha256 == plan) {
-            holds_study_only(target)?;
+            holds_only(target, Kind::Study)?;
             clear(&target.join(POINTS));
-            return Ok(Self(Folder::go_on(target)));
+            return Ok(Self(Folder::go_on(target, Kind::Study)));
         }
-        Folder::claim(target, |folder| may_replace(folder, plan, mode)).map(Self)
+        Folder::claim(target, Kind::Study, |folder| may_replace(folder, plan, mode)).map(Self)
     }
 
     /// Where the run of the resolved case with this fingerprint is being written.
@@ -122,7 +124,7 @@ fn may_replace(folder: &Path, plan: &str, mode: Mode) -> Result<Status, OutputEr
         let holds = if comparison::stands_in(folder) { "comparison" } else { read_summary(folder).map(|_| "run")? };
         return Err(OutputError::OtherKind { folder: folder.into(), holds, wanted: "study" });
     };
-    holds_study_only(folder)?;
+    holds_only(folder, Kind::Study)?;
     match record.status {
         status if mode.force => Ok(status),
         _ if record.plan_sha256 != plan => Err(OutputError::OtherStudy { folder: folder.into(), of: record.command }),
@@ -136,22 +138,7 @@ fn clear(points: &Path) {
     for (name, _) in entries(points).unwrap_or_default() {
         let place = points.join(&name);
         if name.starts_with('.') || read_summary(&place).is_err() {
-            let _ = fs::remove_dir_all(place);
+            ours::remove(&place, Kind::Run);
         }
     }
-}
-
-/// Whether a study folder and the run folders in it hold nothing but what we wrote.
-fn holds_study_only(folder: &Path) -> Result<(), OutputError> {
-    holds_only(folder, OURS)?;
-    let points = folder.join(POINTS);
-    for (name, is_folder) in entries(&points).unwrap_or_default() {
-        let between_two = name.starts_with('.') && (name.contains(".new-") || name.contains(".old-"));
-        let named = name.len() == 16 && name.chars().all(|c| c.is_ascii_hexdigit());
-        if !is_folder || !(named || between_two) {
-            return Err(OutputError::Foreign { folder: folder.into(), entry: format!("{POINTS}/{name}") });
-        }
-        holds_only(&points.join(name), folder::OURS)?;
-    }
-    Ok(())
 }

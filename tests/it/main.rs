@@ -21,6 +21,7 @@ mod mutate;
 mod never_panics;
 mod page;
 mod paths;
+mod places;
 mod report;
 mod schema;
 mod section;
