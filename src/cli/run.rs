@@ -11,9 +11,12 @@ use serde_json::Value;
 
 use super::progress::Progress;
 use super::{CaseArgs, CliError, answer, say};
+use crate::case::Case;
 use crate::discrete::bed::accepts;
 use crate::discrete::couple;
-use crate::output::{CHECKPOINT, Folder, Mode, Written, default_folder, write_failure, write_outcome, write_running};
+use crate::output::{
+    CHECKPOINT, Folder, Mode, OutputError, Written, default_folder, write_failure, write_outcome, write_running,
+};
 use crate::problem::{Model, Problem};
 use crate::result::{Cost, Snapshot, Status, Summary, Watch, quantity};
 use crate::runtime::{cost::peak_memory_mb, pool};
@@ -56,33 +59,14 @@ impl Run {
         let (case, problem) = self.case.load()?;
         // Listening begins before there is anything that Ctrl-C could leave half done.
         let progress = Progress::new(self.quiet);
-        let out = self.out.unwrap_or_else(|| default_folder(&case.name));
+        let out = self.out.clone().unwrap_or_else(|| default_folder(&case.name));
         let mode = Mode { force: self.force, resume: self.resume };
         pool::want(usize::from(self.threads));
-        let folder = Folder::prepare(&out, &case.resolved(), mode)?;
+        let mut folder = Folder::prepare(&out, &case.resolved(), mode)?;
         let checkpoint = if self.resume { Self::checkpoint(folder.path(), &problem)? } else { None };
-        let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
-        let solving = Instant::now();
-        let going_on = checkpoint.is_some();
-        if going_on {
-            folder.carry_over()?;
-        }
-        let between = (self.checkpoint > 0.0).then(|| Duration::from_secs_f64(self.checkpoint));
-        let mut keeper = Keeper { progress, folder: &folder, checkpoint, going_on, between, last: Instant::now() };
-        let result = crate::run(&problem, &mut keeper);
-        drop(keeper);
-        let solve_s = solving.elapsed().as_secs_f64();
-        let cost = Cost {
-            solve_s,
-            total_s: start.elapsed().as_secs_f64(),
-            peak_memory_mb: peak_memory_mb(),
-            work_units: problem.cells as f64,
-            ..Cost::default()
-        };
-        let written = match &result {
-            Ok(outcome) => write_outcome(folder, summary, &problem, outcome, cost, self.png)?,
-            Err(failure) => write_failure(folder, summary, &problem, failure, cost, self.png)?,
-        };
+        let begun = Begun { start, progress, checkpoint };
+        let written = self.compute(&mut folder, &case, &problem, begun).map_err(|error| folder.failed(error))?;
+        drop(folder);
         let mut value = written.summary.to_json();
         if let Value::Object(object) = &mut value {
             object.insert("out".into(), out.display().to_string().into());
@@ -98,6 +82,41 @@ impl Run {
 }
 
 impl Run {
+    /// Solves the case into its folder.
+    fn compute(
+        &self,
+        folder: &mut Folder,
+        case: &Case,
+        problem: &Problem,
+        begun: Begun,
+    ) -> Result<Written, OutputError> {
+        let Begun { start, progress, checkpoint } = begun;
+        let summary = write_running(folder, case, problem, usize::from(self.threads))?;
+        let solving = Instant::now();
+        let going_on = checkpoint.is_some();
+        if going_on {
+            folder.carry_over()?;
+        }
+        let between = (self.checkpoint > 0.0).then(|| Duration::from_secs_f64(self.checkpoint));
+        let mut keeper = Keeper { progress, folder, checkpoint, going_on, between, last: Instant::now(), broken: None };
+        let result = crate::run(problem, &mut keeper);
+        // A file that cannot be written is no failure of the method, whatever that made of it.
+        if let Some(error) = keeper.broken {
+            return Err(error);
+        }
+        let cost = Cost {
+            solve_s: solving.elapsed().as_secs_f64(),
+            total_s: start.elapsed().as_secs_f64(),
+            peak_memory_mb: peak_memory_mb(),
+            work_units: problem.cells as f64,
+            ..Cost::default()
+        };
+        match &result {
+            Ok(outcome) => write_outcome(folder, summary, problem, outcome, cost, self.png),
+            Err(failure) => write_failure(folder, summary, problem, failure, cost, self.png),
+        }
+    }
+
     /// The checkpoint of the unfinished run in `out`, if there is one; one that cannot be used is refused.
     fn checkpoint(out: &Path, problem: &Problem) -> Result<Option<Vec<u8>>, CliError> {
         let Ok(bytes) = fs::read(out.join(CHECKPOINT)) else { return Ok(None) };
@@ -118,6 +137,13 @@ fn seconds(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "a number of seconds from 0 to 1e9".into())
 }
 
+/// What there is before a run is computed.
+struct Begun {
+    start: Instant,
+    progress: Progress,
+    checkpoint: Option<Vec<u8>>,
+}
+
 /// Shows the progress, and keeps the files of the run as they come.
 struct Keeper<'a> {
     progress: Progress,
@@ -127,6 +153,8 @@ struct Keeper<'a> {
     /// time between two checkpoints that are not asked for, if there are any
     between: Option<Duration>,
     last: Instant,
+    /// what could not be written first
+    broken: Option<OutputError>,
 }
 
 impl Watch for Keeper<'_> {
@@ -142,7 +170,11 @@ impl Watch for Keeper<'_> {
         if name == CHECKPOINT {
             self.last = Instant::now();
         }
-        self.folder.write_on_the_way(name, &bytes, self.going_on).map_err(io::Error::other)
+        self.folder.write_on_the_way(name, &bytes, self.going_on).map_err(|error| {
+            let said = io::Error::other(error.to_string());
+            self.broken.get_or_insert(error);
+            said
+        })
     }
 
     fn resumed(&mut self, name: &str) -> Option<Vec<u8>> {

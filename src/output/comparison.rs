@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::Deserialize;
 
 use super::error::OutputError;
-use super::folder::Folder;
+use super::folder::{Folder, Stands};
 use super::ours::{Kind, holds_only};
 use super::path::resolve;
 use super::run::{draw_png, read_summary};
@@ -48,8 +48,9 @@ pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Resu
             return Err(OutputError::OtherKind { folder: folder.into(), holds, wanted: "comparison" });
         };
         holds_only(folder, Kind::Comparison)?;
-        if force || record.request == *request {
-            return Ok(Status::Done);
+        let same = record.request == *request;
+        if force || same {
+            return Ok(Stands { status: Status::Done, same, goes_on: false });
         }
         let Request { subjects, data, .. } = record.request;
         Err(OutputError::OtherComparison { folder: folder.into(), of: [subjects, data].concat().join(", ") })
@@ -61,7 +62,20 @@ pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Resu
 /// # Errors
 /// [`OutputError::Interrupted`] with the file that cannot be written.
 pub fn write_comparison(
-    folder: Folder,
+    mut folder: Folder,
+    comparison: &Comparison,
+    request: &Request,
+    cost: &Cost,
+    provenance: &Provenance,
+    png: bool,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let written = fill(&folder, comparison, request, cost, provenance, png);
+    let written = written.and_then(|drawn| folder.finish().map(|()| drawn));
+    written.map_err(|error| folder.failed(error))
+}
+
+fn fill(
+    folder: &Folder,
     comparison: &Comparison,
     request: &Request,
     cost: &Cost,
@@ -79,7 +93,5 @@ pub fn write_comparison(
     let figures = comparison.figures();
     let page = comparison.html(&figures, cost, provenance);
     folder.write("report.html", |to: &mut dyn Write| -> io::Result<()> { to.write_all(page.as_bytes()) })?;
-    let drawn = if png { draw_png(&folder.place("."), folder.path(), &figures)? } else { Vec::new() };
-    folder.finish()?;
-    Ok(drawn)
+    if png { draw_png(&folder.place, folder.path(), &figures) } else { Ok(Vec::new()) }
 }

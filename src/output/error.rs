@@ -1,9 +1,31 @@
 //! Why an output is refused, or broke on the way.
 
-use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::{fmt, io};
 
 use crate::result::Status;
+
+/// What is finished of an output that broke on the way, and stays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Finished {
+    /// the state from which a run goes on
+    Checkpoint,
+    /// so many points of a study
+    Points(usize),
+    /// all of it, but not where it should be
+    Whole,
+}
+
+impl fmt::Display for Finished {
+    fn fmt(&self, to: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Checkpoint => to.write_str("the last checkpoint"),
+            Self::Points(1) => to.write_str("1 finished point"),
+            Self::Points(n) => write!(to, "{n} finished points"),
+            Self::Whole => to.write_str("the complete result"),
+        }
+    }
+}
 
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]
@@ -88,6 +110,18 @@ pub enum OutputError {
         /// what is missing or wrong
         reason: String,
     },
+    /// the same, and what was finished stays
+    #[error("{error}; {} keeps {what}", folder.display())]
+    Kept {
+        /// what failed
+        error: Box<Self>,
+        /// where it stays
+        folder: PathBuf,
+        /// what stays
+        what: Finished,
+        /// what was to be replaced by it and still stands there
+        untouched: Option<PathBuf>,
+    },
     /// writing failed half-way: the disk is full, or worse
     #[error("writing {} failed: {error}", path.display())]
     Interrupted {
@@ -114,37 +148,44 @@ impl OutputError {
             Self::Unfinished { .. } => "unfinished-run",
             Self::Unwritable { .. } => "unwritable",
             Self::NotARun { .. } => "not-a-run",
-            Self::Interrupted { .. } => "write-failed",
+            Self::Interrupted { .. } | Self::Kept { .. } => "write-failed",
         }
     }
 
     /// What to do about it.
     #[must_use]
-    pub fn hint(&self) -> Option<&'static str> {
-        match self {
-            Self::NotAFolder(_) | Self::Unwritable { .. } => Some("give another place with --out"),
+    pub fn hint(&self) -> Option<String> {
+        let hint = match self {
+            Self::Kept { folder, what, untouched, .. } => return Some(how_to_go_on(folder, *what, untouched.as_ref())),
+            Self::NotAFolder(_) | Self::Unwritable { .. } => "give another place with --out",
             Self::Foreign { .. } => {
-                Some("give another folder with --out; --force does not replace what bedload did not write")
+                "give another folder with --out; --force does not replace what bedload did not write"
             }
-            Self::ForeignFile(_) => Some("give another file with --out, or move that one away"),
-            Self::OtherKind { .. } => Some("give another folder with --out; --force replaces only its own kind"),
-            Self::OtherComparison { .. } => {
-                Some("give another folder with --out, or --force to replace that comparison")
-            }
-            Self::OtherStudy { .. } => Some("give another folder with --out, or --force to replace that study"),
-            Self::UnfinishedStudy { .. } => Some("--resume to keep the points that are done, --force to start again"),
-            Self::OtherCase { .. } => Some("give another folder with --out, or --force to replace that run"),
-            Self::Unfinished { .. } => Some("--resume to go on, --force to start again"),
-            Self::NotARun { .. } => Some("give a folder that `bedload run` wrote"),
-            Self::Interrupted { .. } => {
-                Some("nothing that stood there before was touched; free some space and run again")
-            }
-        }
+            Self::ForeignFile(_) => "give another file with --out, or move that one away",
+            Self::OtherKind { .. } => "give another folder with --out; --force replaces only its own kind",
+            Self::OtherComparison { .. } => "give another folder with --out, or --force to replace that comparison",
+            Self::OtherStudy { .. } => "give another folder with --out, or --force to replace that study",
+            Self::UnfinishedStudy { .. } => "--resume to keep the points that are done, --force to start again",
+            Self::OtherCase { .. } => "give another folder with --out, or --force to replace that run",
+            Self::Unfinished { .. } => "--resume to go on, --force to start again",
+            Self::NotARun { .. } => "give a folder that `bedload run` wrote",
+            Self::Interrupted { .. } => "nothing that stood there before was touched; free some space and run again",
+        };
+        Some(hint.into())
     }
 
     /// Whether nothing was run because of it (exit code 2) or something broke on the way (exit code 1).
     #[must_use]
     pub fn is_refusal(&self) -> bool {
-        !matches!(self, Self::Interrupted { .. })
+        !matches!(self, Self::Interrupted { .. } | Self::Kept { .. })
+    }
+}
+
+fn how_to_go_on(folder: &Path, what: Finished, untouched: Option<&PathBuf>) -> String {
+    let untouched = untouched.map(|target| format!("{} is as it was; ", target.display())).unwrap_or_default();
+    match what {
+        Finished::Whole => format!("{untouched}move that folder to where it should be"),
+        _ if untouched.is_empty() => "free some space and go on with --resume".into(),
+        _ => format!("{untouched}free some space and go on with --out {} --resume", folder.display()),
     }
 }

@@ -5,8 +5,8 @@ use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use super::error::OutputError;
-use super::grains::is_partial;
+use super::error::{Finished, OutputError};
+use super::grains::{CHECKPOINT, is_partial};
 use super::ours::{self, Kind, entries, holds_only};
 use super::path::{Made, resolve};
 use super::run::read_summary;
@@ -22,7 +22,18 @@ pub struct Mode {
     pub resume: bool,
 }
 
-/// A folder that is being written. Dropped before [`Folder::finish`], it takes back what it wrote.
+/// What stands in a folder, and may make room.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stands {
+    /// how far it is
+    pub status: Status,
+    /// whether it is what will be written again
+    pub same: bool,
+    /// whether it goes on where it stands
+    pub goes_on: bool,
+}
+
+/// A folder that is being written. Dropped before [`Folder::finish`], it takes back what it wrote, but for what is finished.
 #[derive(Debug)]
 pub struct Folder {
     kind: Kind,
@@ -36,6 +47,12 @@ pub struct Folder {
     above: Made,
     /// whether a finished run stands in the target
     over_finished: bool,
+    /// whether that is the same as this one will be
+    again: bool,
+    /// whether the target has every checkpoint that the place has
+    pub(super) carried: bool,
+    /// whether all is there, but not where it should be
+    whole: bool,
     finished: bool,
 }
 
@@ -48,14 +65,27 @@ impl Folder {
         Self::claim(&resolve(target)?, Kind::Run, |folder| may_replace(folder, case, mode))
     }
 
-    /// Prepares the resolved path `target`, whose content `may_replace` judges where there is any; it says in what state that is.
+    /// Prepares the folder of one point of a study that has begun: what cannot be made now breaks the study.
+    ///
+    /// # Errors
+    /// As [`Folder::prepare`], and [`OutputError::Interrupted`].
+    pub(super) fn of_point(target: &Path, case: &str) -> Result<Self, OutputError> {
+        // The folder is named by its case: whatever run stands in it is an unfinished one of this case.
+        let mode = Mode { force: true, resume: true };
+        Self::claim(target, Kind::Run, |folder| may_replace(folder, case, mode)).map_err(|error| match error {
+            OutputError::Unwritable { path, error } => OutputError::Interrupted { path, error },
+            other => other,
+        })
+    }
+
+    /// Prepares the resolved path `target`, whose content `may_replace` judges where there is any.
     ///
     /// # Errors
     /// As [`Folder::prepare`].
     pub(super) fn claim(
         target: &Path,
         kind: Kind,
-        may_replace: impl FnOnce(&Path) -> Result<Status, OutputError>,
+        may_replace: impl FnOnce(&Path) -> Result<Stands, OutputError>,
     ) -> Result<Self, OutputError> {
         let unwritable = |path: &Path| {
             let path = path.to_owned();
@@ -67,7 +97,18 @@ impl Folder {
             Ok(known) if !known.is_dir() => return Err(OutputError::NotAFolder(target.into())),
             Ok(_) => Some(entries(target).map_err(unwritable(target))?.iter().any(|(name, _)| !is_partial(name))),
         };
-        let mut folder = Self::go_on(target, kind);
+        let mut folder = Self {
+            kind,
+            target: target.into(),
+            place: target.into(),
+            made: false,
+            above: Made::default(),
+            over_finished: false,
+            again: false,
+            carried: false,
+            whole: false,
+            finished: true,
+        };
         match occupied {
             None => {
                 folder.above = Made::above(target).map_err(unwritable(target))?;
@@ -76,7 +117,12 @@ impl Folder {
             }
             Some(false) => {}
             Some(true) => {
-                folder.over_finished = may_replace(target)? == Status::Done;
+                let Stands { status, same, goes_on } = may_replace(target)?;
+                if goes_on {
+                    return Ok(folder);
+                }
+                folder.over_finished = status == Status::Done;
+                folder.again = folder.over_finished && same;
                 let place = free(target, "new");
                 fs::create_dir(&place).map_err(unwritable(&place))?;
                 (folder.place, folder.made) = (place, true);
@@ -89,19 +135,6 @@ impl Folder {
         let made = fs::File::create(&probe).and_then(|_| fs::remove_file(&probe));
         made.map_err(unwritable(&folder.place))?;
         Ok(folder)
-    }
-
-    /// A folder that goes on being written where it stands: nothing is taken back.
-    pub(super) fn go_on(target: &Path, kind: Kind) -> Self {
-        Self {
-            kind,
-            target: target.into(),
-            place: target.into(),
-            made: false,
-            above: Made::default(),
-            over_finished: false,
-            finished: true,
-        }
     }
 
     /// Whether a finished run stands where this one will be.
@@ -134,12 +167,43 @@ impl Folder {
     ///
     /// # Errors
     /// [`OutputError::Interrupted`] if the folders cannot be exchanged; the old run then stays.
-    pub fn finish(mut self) -> Result<(), OutputError> {
+    pub fn finish(&mut self) -> Result<(), OutputError> {
         if self.place != self.target {
+            self.whole = true;
             self.exchange().map_err(|error| OutputError::Interrupted { path: self.target.clone(), error })?;
         }
         self.finished = true;
         Ok(())
+    }
+
+    /// What is written gives way to the finished run that the target holds.
+    pub(super) fn give_way(&mut self) {
+        self.again = true;
+    }
+
+    /// What broke on the way, with what stays of this folder all the same.
+    #[must_use]
+    pub fn failed(&self, error: OutputError) -> OutputError {
+        let Some((folder, what)) = self.stays().filter(|_| !error.is_refusal()) else { return error };
+        let untouched = (folder != self.target).then(|| self.target.clone());
+        OutputError::Kept { error: Box::new(error), folder: folder.into(), what, untouched }
+    }
+
+    /// Where something stays that is finished, and what it is.
+    fn stays(&self) -> Option<(&Path, Finished)> {
+        let finished = match self.kind {
+            // What stands in the target is finished, and the same.
+            _ if self.again => return None,
+            _ if self.whole => Finished::Whole,
+            Kind::Run if self.carried => return Some((&self.target, Finished::Checkpoint)),
+            Kind::Run if self.place.join(CHECKPOINT).is_file() => Finished::Checkpoint,
+            Kind::Study => match study::points_done(&self.place) {
+                0 => return None,
+                done => Finished::Points(done),
+            },
+            _ => return None,
+        };
+        Some((&self.place, finished))
     }
 
     fn exchange(&self) -> io::Result<()> {
@@ -163,7 +227,7 @@ impl Folder {
 
 impl Drop for Folder {
     fn drop(&mut self) {
-        if self.finished {
+        if self.finished || self.stays().is_some_and(|(folder, _)| folder == self.place) {
             return;
         }
         if self.made {
@@ -184,9 +248,14 @@ pub(super) fn write_whole(
 ) -> Result<(), OutputError> {
     let partial = beside(path, "part");
     let written = fs::File::create(&partial).and_then(|file| {
-        let mut writer = BufWriter::with_capacity(1 << 16, file);
+        let mut writer = BufWriter::with_capacity(1 << 16, &file);
         content(&mut writer)?;
         writer.flush()?;
+        drop(writer);
+        // A disk may take a file and say only afterwards that it is full: the last checkpoint stays until the next is safe.
+        if path.file_name().is_some_and(|name| name == CHECKPOINT) {
+            file.sync_data()?;
+        }
         fs::rename(&partial, path)
     });
     written.map_err(|error| {
@@ -215,8 +284,8 @@ fn free(path: &Path, what: &str) -> PathBuf {
     names.find(|name| fs::symlink_metadata(name).is_err()).unwrap_or(first)
 }
 
-/// Whether a folder that is not empty may be replaced by a run of the resolved case `case`; the state of the run in it.
-fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputError> {
+/// Whether a folder that is not empty may be replaced by a run of the resolved case `case`.
+fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Stands, OutputError> {
     if comparison::stands_in(folder) {
         return Err(OutputError::OtherKind { folder: folder.into(), holds: "comparison", wanted: "run" });
     }
@@ -226,12 +295,11 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Status, OutputEr
     let summary = read_summary(folder)?;
     holds_only(folder, Kind::Run)?;
     let same = fs::read_to_string(folder.join("case.toml")).is_ok_and(|text| text == case);
-    if mode.force {
-        return Ok(summary.status);
-    }
+    let stands = Stands { status: summary.status, same, goes_on: false };
     match (same, summary.status) {
-        (true, Status::Done) => Ok(Status::Done),
-        (true, status) if mode.resume => Ok(status),
+        _ if mode.force => Ok(stands),
+        (true, Status::Done) => Ok(stands),
+        (true, _) if mode.resume => Ok(stands),
         (true, status) => Err(OutputError::Unfinished { folder: folder.into(), status }),
         (false, _) => Err(OutputError::OtherCase { folder: folder.into(), case: summary.case }),
     }

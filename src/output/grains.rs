@@ -39,10 +39,11 @@ impl Folder {
     ///
     /// # Errors
     /// [`OutputError::Interrupted`] with the file.
-    pub fn carry_over(&self) -> Result<(), OutputError> {
+    pub fn carry_over(&mut self) -> Result<(), OutputError> {
         if self.place == self.target {
             return Ok(());
         }
+        self.carried = true;
         for (name, _) in entries(&self.target).unwrap_or_default() {
             if name == CHECKPOINT || is_frame(&name) {
                 let path = self.place.join(&name);

@@ -11,7 +11,7 @@ mod study;
 mod table;
 
 pub use comparison::{prepare_comparison, write_comparison};
-pub use error::OutputError;
+pub use error::{Finished, OutputError};
 pub use folder::{Folder, Mode};
 pub use grains::CHECKPOINT;
 pub use path::default_folder;

@@ -77,7 +77,7 @@ pub fn write_running(folder: &Folder, case: &Case, problem: &Problem, threads: u
 /// # Errors
 /// [`OutputError::Interrupted`] with the file that cannot be written.
 pub fn write_outcome(
-    folder: Folder,
+    folder: &mut Folder,
     mut summary: Summary,
     problem: &Problem,
     outcome: &Outcome,
@@ -86,7 +86,7 @@ pub fn write_outcome(
 ) -> Result<Written, OutputError> {
     summary.status = outcome.status;
     fill(&mut summary, outcome, cost);
-    let figures = write_body(&folder, &summary, problem, Some(outcome), png)?;
+    let figures = write_body(folder, &summary, problem, Some(outcome), png)?;
     complete(folder, summary, figures)
 }
 
@@ -95,7 +95,7 @@ pub fn write_outcome(
 /// # Errors
 /// [`OutputError::Interrupted`] with the file that cannot be written.
 pub fn write_failure(
-    folder: Folder,
+    folder: &mut Folder,
     mut summary: Summary,
     problem: &Problem,
     failure: &Failure,
@@ -117,7 +117,7 @@ pub fn write_failure(
     } else {
         summary.cost = cost;
     }
-    let figures = write_body(&folder, &summary, problem, last.as_deref(), png)?;
+    let figures = write_body(folder, &summary, problem, last.as_deref(), png)?;
     complete(folder, summary, figures)
 }
 
@@ -129,11 +129,13 @@ fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
     summary.cost = cost;
 }
 
-fn complete(folder: Folder, summary: Summary, figures: Vec<PathBuf>) -> Result<Written, OutputError> {
-    write_summary(&folder, &summary)?;
+fn complete(folder: &mut Folder, summary: Summary, figures: Vec<PathBuf>) -> Result<Written, OutputError> {
+    write_summary(folder, &summary)?;
     // Ctrl-C loses nothing: what is only begun does not replace what is done.
     let kept = summary.status == Status::Stopped && folder.over_finished();
-    if !kept {
+    if kept {
+        folder.give_way();
+    } else {
         folder.finish()?;
     }
     Ok(Written { summary, figures, kept })
@@ -163,7 +165,7 @@ fn write_body(
         folder.write("series.csv", |to| series.write_csv(to, &comments).map_err(as_io))?;
     }
     let case = fs::read_to_string(folder.place("case.toml")).unwrap_or_default();
-    draw(&folder.place("."), folder.path(), summary, profile, problem, &case, png)
+    draw(&folder.place, folder.path(), summary, profile, problem, &case, png)
 }
 
 fn as_io(error: TableError) -> io::Error {

@@ -235,7 +235,7 @@ impl StudyError {
             Self::BadSigma { .. } => "give one sigma in SI, or COLUMN=sigma; it holds where the data have none".into(),
             Self::Data(error) => error.fault.hint(),
             Self::Case(_) => String::new(),
-            Self::Output(error) => error.hint().unwrap_or_default().into(),
+            Self::Output(error) => error.hint().unwrap_or_default(),
             Self::Threads { .. } => "ask for fewer with --threads".into(),
         }
     }

@@ -13,6 +13,7 @@ mod compare;
 mod converge;
 mod coupled;
 mod folder;
+mod full_disk;
 mod grains;
 mod interruption;
 mod kinetic;
