@@ -5,6 +5,15 @@ use std::{fmt, io};
 
 use crate::result::Status;
 
+/// The process that writes an output.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Holder {
+    /// its number
+    pub pid: u32,
+    /// when it began, UTC
+    pub since: String,
+}
+
 /// What is finished of an output that broke on the way, and stays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Finished {
@@ -30,6 +39,14 @@ impl fmt::Display for Finished {
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]
 pub enum OutputError {
+    /// another process writes it
+    #[error("{} is in use: {}", path.display(), who(holder.as_ref()))]
+    InUse {
+        /// folder or file
+        path: PathBuf,
+        /// that process, if it has said so
+        holder: Option<Holder>,
+    },
     /// a file where the folder should be
     #[error("{} is a file, not a folder", .0.display())]
     NotAFolder(PathBuf),
@@ -137,6 +154,7 @@ impl OutputError {
     #[must_use]
     pub fn code(&self) -> &'static str {
         match self {
+            Self::InUse { .. } => "in-use",
             Self::NotAFolder(_) => "not-a-folder",
             Self::Foreign { .. } => "foreign-folder",
             Self::ForeignFile(_) => "foreign-file",
@@ -157,11 +175,12 @@ impl OutputError {
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
             Self::Kept { folder, what, untouched, .. } => return Some(how_to_go_on(folder, *what, untouched.as_ref())),
+            Self::InUse { .. } => "wait until it is done, or give another place with --out; --force does not help",
             Self::NotAFolder(_) | Self::Unwritable { .. } => "give another place with --out",
             Self::Foreign { .. } => {
                 "give another folder with --out; --force does not replace what bedload did not write"
             }
-            Self::ForeignFile(_) => "give another file with --out, or move that one away",
+            Self::ForeignFile(_) => "give another place with --out, or move that file away",
             Self::OtherKind { .. } => "give another folder with --out; --force replaces only its own kind",
             Self::OtherComparison { .. } => "give another folder with --out, or --force to replace that comparison",
             Self::OtherStudy { .. } => "give another folder with --out, or --force to replace that study",
@@ -178,6 +197,13 @@ impl OutputError {
     #[must_use]
     pub fn is_refusal(&self) -> bool {
         !matches!(self, Self::Interrupted { .. } | Self::Kept { .. })
+    }
+}
+
+fn who(holder: Option<&Holder>) -> String {
+    match holder {
+        Some(Holder { pid, since }) => format!("process {pid} has been writing it since {since}"),
+        None => "another process is writing it".into(),
     }
 }
 

@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 
 use super::error::{Finished, OutputError};
 use super::grains::{CHECKPOINT, is_partial};
+use super::lock::{Site, is_lock};
 use super::ours::{self, Kind, entries, holds_only};
-use super::path::{Made, resolve};
+use super::path::resolve;
 use super::run::read_summary;
 use super::{comparison, study};
 use crate::result::Status;
@@ -43,8 +44,8 @@ pub struct Folder {
     pub(super) place: PathBuf,
     /// whether this process made the place
     made: bool,
-    /// what it made above the target
-    above: Made,
+    /// the target, locked; `None` for a point, whose study is
+    _site: Option<Site>,
     /// whether a finished run stands in the target
     over_finished: bool,
     /// whether that is the same as this one will be
@@ -72,7 +73,7 @@ impl Folder {
     pub(super) fn of_point(target: &Path, case: &str) -> Result<Self, OutputError> {
         // The folder is named by its case: whatever run stands in it is an unfinished one of this case.
         let mode = Mode { force: true, resume: true };
-        Self::claim(target, Kind::Run, |folder| may_replace(folder, case, mode)).map_err(|error| match error {
+        Self::occupy(None, target, Kind::Run, |folder| may_replace(folder, case, mode)).map_err(|error| match error {
             OutputError::Unwritable { path, error } => OutputError::Interrupted { path, error },
             other => other,
         })
@@ -87,22 +88,33 @@ impl Folder {
         kind: Kind,
         may_replace: impl FnOnce(&Path) -> Result<Stands, OutputError>,
     ) -> Result<Self, OutputError> {
-        let unwritable = |path: &Path| {
-            let path = path.to_owned();
-            move |error| OutputError::Unwritable { path, error }
-        };
-        let occupied = match fs::symlink_metadata(target) {
-            Err(error) if error.kind() == io::ErrorKind::NotFound => None,
-            Err(error) => return Err(unwritable(target)(error)),
-            Ok(known) if !known.is_dir() => return Err(OutputError::NotAFolder(target.into())),
-            Ok(_) => Some(entries(target).map_err(unwritable(target))?.iter().any(|(name, _)| !is_partial(name))),
-        };
+        let before = is_occupied(target);
+        if let Err(error @ OutputError::NotAFolder(_)) = before {
+            return Err(error);
+        }
+        match Site::take(target) {
+            Ok(site) => Self::occupy(Some(site), target, kind, may_replace),
+            // What stands there tells more than that no lock can be made.
+            Err(error @ OutputError::Unwritable { .. }) if matches!(before, Ok(Some(true))) => {
+                may_replace(target).and(Err(error))
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    fn occupy(
+        site: Option<Site>,
+        target: &Path,
+        kind: Kind,
+        may_replace: impl FnOnce(&Path) -> Result<Stands, OutputError>,
+    ) -> Result<Self, OutputError> {
+        let occupied = is_occupied(target)?;
         let mut folder = Self {
             kind,
             target: target.into(),
             place: target.into(),
             made: false,
-            above: Made::default(),
+            _site: site,
             over_finished: false,
             again: false,
             carried: false,
@@ -111,7 +123,6 @@ impl Folder {
         };
         match occupied {
             None => {
-                folder.above = Made::above(target).map_err(unwritable(target))?;
                 fs::create_dir(target).map_err(unwritable(target))?;
                 folder.made = true;
             }
@@ -234,6 +245,23 @@ impl Drop for Folder {
             ours::remove(&self.place, self.kind);
         } else {
             ours::clear(&self.place, self.kind);
+        }
+    }
+}
+
+fn unwritable(path: &Path) -> impl FnOnce(io::Error) -> OutputError {
+    |error| OutputError::Unwritable { path: path.into(), error }
+}
+
+/// Whether there is anything in a folder; `None` if there is no folder.
+fn is_occupied(target: &Path) -> Result<Option<bool>, OutputError> {
+    match fs::symlink_metadata(target) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(unwritable(target)(error)),
+        Ok(known) if !known.is_dir() => Err(OutputError::NotAFolder(target.into())),
+        Ok(_) => {
+            let entries = entries(target).map_err(unwritable(target))?;
+            Ok(Some(entries.iter().any(|(name, _)| !is_partial(name) && !is_lock(name))))
         }
     }
 }

@@ -24,7 +24,7 @@ pub(super) fn read_motion(place: &Path) -> Option<Motion> {
 /// Written and removed to see whether files can be made.
 pub(super) const PROBE: &str = ".probe";
 
-/// What a run that was killed may leave behind.
+/// What a run that was killed may leave behind in its folder, but for locks.
 pub(super) fn is_partial(name: &str) -> bool {
     name == PROBE || name.starts_with('.') && name.contains(".part-")
 }

@@ -4,6 +4,7 @@ mod comparison;
 mod error;
 mod folder;
 mod grains;
+mod lock;
 mod ours;
 mod path;
 mod run;
@@ -11,7 +12,7 @@ mod study;
 mod table;
 
 pub use comparison::{prepare_comparison, write_comparison};
-pub use error::{Finished, OutputError};
+pub use error::{Finished, Holder, OutputError};
 pub use folder::{Folder, Mode};
 pub use grains::CHECKPOINT;
 pub use path::default_folder;

@@ -5,6 +5,7 @@ use std::{fs, io};
 
 use super::error::OutputError;
 use super::grains::{CHECKPOINT, MOTION, is_frame, is_partial};
+use super::lock::is_lock;
 
 /// The folder of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
@@ -24,6 +25,8 @@ pub(super) enum Kind {
 /// What an entry of ours is.
 enum Entry {
     File,
+    /// never removed but by who holds it
+    Lock,
     Folder(Kind),
 }
 
@@ -52,6 +55,7 @@ impl Kind {
     /// What an entry of the folder is; `None` if it is not ours.
     fn entry(self, name: &str, is_folder: bool) -> Option<Entry> {
         Some(match (self, is_folder) {
+            (_, false) if is_lock(name) => Entry::Lock,
             (Self::Run | Self::Comparison | Self::Study, true) if name == FIGURES => Entry::Folder(Self::Figures),
             (Self::Study, true) if name == POINTS => Entry::Folder(Self::Points),
             (Self::Points, true) if is_point(name) => Entry::Folder(Self::Run),
@@ -85,7 +89,7 @@ fn foreign(folder: &Path, kind: Kind) -> io::Result<Option<String>> {
     for (name, is_folder) in entries(folder)? {
         match kind.entry(&name, is_folder) {
             None => return Ok(Some(name)),
-            Some(Entry::File) => {}
+            Some(Entry::File | Entry::Lock) => {}
             Some(Entry::Folder(kind)) => {
                 if let Some(inside) = foreign(&folder.join(&name), kind)? {
                     return Ok(Some(format!("{name}/{inside}")));
@@ -103,7 +107,7 @@ pub(super) fn clear(folder: &Path, kind: Kind) {
         match kind.entry(&name, is_folder) {
             Some(Entry::File) => drop(fs::remove_file(path)),
             Some(Entry::Folder(kind)) => remove(&path, kind),
-            None => {}
+            Some(Entry::Lock) | None => {}
         }
     }
 }

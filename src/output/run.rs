@@ -11,7 +11,9 @@ use sha2::{Digest, Sha256};
 use super::error::OutputError;
 use super::folder::{Folder, write_whole};
 use super::grains::read_motion;
+use super::lock::Site;
 use super::ours::FIGURES;
+use super::path::resolve;
 use crate::case::Case;
 use crate::plot::{self, Figure, Page};
 use crate::problem::Problem;
@@ -306,6 +308,14 @@ fn read_text(folder: &Path, name: &str) -> Result<String, OutputError> {
 /// [`OutputError::NotARun`] if the folder does not hold a run, [`OutputError::Interrupted`] if it cannot be written.
 pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
     let wrong = |reason: String| OutputError::NotARun { folder: folder.into(), reason };
+    let before = read_run(folder);
+    let _site = match Site::take(&resolve(folder)?) {
+        Ok(site) => site,
+        Err(error @ OutputError::InUse { .. }) => return Err(error),
+        // What stands there tells more than that no lock can be made.
+        Err(error) => return before.and(Err(error)),
+    };
+    // Read again: it may have been written until it was locked.
     let (summary, profile) = read_run(folder)?;
     let text = read_text(folder, "case.toml")?;
     if let Ok(file) = fs::File::open(folder.join("series.csv")) {

@@ -5,6 +5,7 @@ use std::{fs, io};
 
 use super::error::OutputError;
 use super::folder::write_whole;
+use super::lock::Site;
 use super::ours::FIGURES;
 use super::path::{Made, resolve};
 use super::run::draw_one;
@@ -16,8 +17,9 @@ pub struct TableFile {
     file: PathBuf,
     /// whether none stands there
     new: bool,
-    /// folders that were made for the figure and for the table, the inner ones first
-    _above: [Made; 2],
+    /// folders that were made for the figure
+    _above: Made,
+    _site: Site,
 }
 
 impl TableFile {
@@ -27,6 +29,7 @@ impl TableFile {
     /// [`OutputError`] if something else stands there, or the file cannot be written.
     pub fn prepare(file: &Path, head: &str, figure: &str) -> Result<Self, OutputError> {
         let file = resolve(file)?;
+        let site = Site::take(&file)?;
         let unwritable = |error| OutputError::Unwritable { path: file.clone(), error };
         let drawing = file.with_file_name(FIGURES).join(format!("{figure}.png"));
         let known = fs::symlink_metadata(&file);
@@ -40,8 +43,7 @@ impl TableFile {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {}
             Err(error) => return Err(unwritable(error)),
         }
-        let above = Made::above(&file).map_err(unwritable)?;
-        Ok(Self { _above: [Made::above(&drawing).map_err(unwritable)?, above], file, new })
+        Ok(Self { _above: Made::above(&drawing).map_err(unwritable)?, _site: site, file, new })
     }
 
     /// Writes the figure, then the table.

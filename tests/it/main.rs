@@ -18,6 +18,7 @@ mod grains;
 mod interruption;
 mod kinetic;
 mod limits;
+mod lock;
 mod mutate;
 mod never_panics;
 mod page;
