@@ -93,7 +93,10 @@ impl Folder {
             return Err(error);
         }
         match Site::take(target) {
-            Ok(site) => Self::occupy(Some(site), target, kind, may_replace),
+            Ok(site) => {
+                put_back(target);
+                Self::occupy(Some(site), target, kind, may_replace)
+            }
             // What stands there tells more than that no lock can be made.
             Err(error @ OutputError::Unwritable { .. }) if matches!(before, Ok(Some(true))) => {
                 may_replace(target).and(Err(error))
@@ -246,6 +249,24 @@ impl Drop for Folder {
         } else {
             ours::clear(&self.place, self.kind);
         }
+    }
+}
+
+/// Puts back what a process that was killed between two renames had taken out of the place of `target`, which is locked.
+fn put_back(target: &Path) {
+    let (Some(above), Some(name)) = (target.parent(), target.file_name()) else { return };
+    if fs::symlink_metadata(target).is_ok() {
+        return;
+    }
+    let above = if above.as_os_str().is_empty() { Path::new(".") } else { above };
+    let prefix = format!(".{}.old-", name.to_string_lossy());
+    let old = entries(above)
+        .unwrap_or_default()
+        .into_iter()
+        .find(|(name, is_folder)| *is_folder && name.starts_with(&prefix));
+    if let Some((old, _)) = old {
+        // If it cannot be moved, it stays, and the place is free.
+        let _ = fs::rename(above.join(old), target);
     }
 }
 
