@@ -8,9 +8,10 @@ use std::fs;
 use std::process::Command;
 use std::time::Instant;
 
+use bedload::closures::contact::Tension;
 use bedload::dem::body::{Body, Pushed, Seen};
 use bedload::dem::law::{Discrete, Lammps};
-use bedload::dem::{Domain, Engine, Grain, LinearSpring, Point, Settings, Tension};
+use bedload::dem::{Domain, Engine, Grain, LinearSpring, Point, Settings};
 
 const D: f64 = 6e-3;
 const DENSITY: f64 = 2500.0;

@@ -279,7 +279,7 @@ impl CliError {
                 let reports = error.reports();
                 json!({ "status": "failed", "error": reports.first(), "errors": reports })
             }
-            Self::Output(error) => one(error.code(), error.to_string(), error.hint().map(str::to_owned)),
+            Self::Output(error) => one(error.code(), error.to_string(), error.hint()),
             Self::Compare(error) => one(error.code(), error.to_string(), Some(error.hint())),
             Self::Study(error) => one(error.code(), error.to_string(), Some(error.hint())),
             Self::Advise(error) => one(error.code(), error.to_string(), Some(error.hint().into())),
@@ -295,7 +295,7 @@ impl CliError {
         let mut to = io::stderr().lock();
         let (message, hint) = match self {
             Self::Case(error) => return write!(to, "{}", error.render(colour())),
-            Self::Output(error) => (format!("error: {error}"), error.hint().map(str::to_owned)),
+            Self::Output(error) => (format!("error: {error}"), error.hint()),
             Self::Failed(error, _) => (format!("failed: {}", error.message), error.hint),
             Self::Red(rows) => (format!("{rows} rows are red"), None),
             Self::Stopped(_, kept) => {

@@ -1,5 +1,6 @@
 //! `bedload run`: solve a case and write its folder.
 
+use std::cell::RefCell;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -10,9 +11,11 @@ use serde_json::Value;
 
 use super::progress::Progress;
 use super::{CaseArgs, CliError, Verb, answer, say};
-use crate::model::Problem;
-use crate::model::Registry;
-use crate::output::{CHECKPOINT, Folder, Mode, Written, write_failure, write_outcome, write_running};
+use crate::case::Case;
+use crate::model::{Problem, Registry};
+use crate::output::{
+    CHECKPOINT, Folder, Mode, OutputError, Written, default_folder, write_failure, write_outcome, write_running,
+};
 use crate::result::{Checkpoints, Context, Cost, Frames, Reported, Status, Summary, quantity};
 use crate::runtime::cost::peak_memory_mb;
 use crate::units::{readable, readable_error, significant};
@@ -57,35 +60,14 @@ impl Verb for Run {
         let start = Instant::now();
         let (case, problem) = self.case.load(registry)?;
         // Listening begins before there is anything that Ctrl-C could leave half done.
-        let mut progress = Progress::new(self.quiet);
-        let out = self.out.unwrap_or_else(|| PathBuf::from("runs").join(&case.name));
+        let progress = Progress::new(self.quiet);
+        let out = self.out.clone().unwrap_or_else(|| default_folder(&case.name));
         let mode = Mode { force: self.force, resume: self.resume };
-        let checkpoint = if self.resume { Self::checkpoint(&out, &problem)? } else { None };
-        let folder = Folder::prepare(&out, &case.resolved(), mode)?;
-        let summary = write_running(&folder, &case, &problem, usize::from(self.threads))?;
-        let solving = Instant::now();
-        let going_on = checkpoint.is_some();
-        if going_on {
-            folder.carry_over()?;
-        }
-        let between = (self.checkpoint > 0.0).then(|| Duration::from_secs_f64(self.checkpoint));
-        let mut keeper = Keeper { folder: &folder, checkpoint, going_on, between, last: Instant::now() };
-        let mut camera = Camera { folder: &folder, going_on };
-        let context = Context::new(&mut progress).threads(usize::from(self.threads));
-        let result = problem.run(&mut context.checkpoints(&mut keeper).frames(&mut camera));
-        drop(progress);
-        let solve_s = solving.elapsed().as_secs_f64();
-        let cost = Cost {
-            solve_s,
-            total_s: start.elapsed().as_secs_f64(),
-            peak_memory_mb: peak_memory_mb(),
-            work_units: problem.cells() as f64,
-            ..Cost::default()
-        };
-        let written = match &result {
-            Ok(outcome) => write_outcome(folder, summary, &problem, outcome, cost, self.png)?,
-            Err(failure) => write_failure(folder, summary, &problem, failure, cost, self.png)?,
-        };
+        let mut folder = Folder::prepare(&out, &case.resolved(), mode)?;
+        let checkpoint = if self.resume { Self::checkpoint(folder.path(), &problem)? } else { None };
+        let begun = Begun { start, progress, checkpoint };
+        let written = self.compute(&mut folder, &case, &problem, begun).map_err(|error| folder.failed(error))?;
+        drop(folder);
         let mut value = written.summary.to_json();
         if let Value::Object(object) = &mut value {
             object.insert("out".into(), out.display().to_string().into());
@@ -101,6 +83,45 @@ impl Verb for Run {
 }
 
 impl Run {
+    /// Solves the case into its folder.
+    fn compute(
+        &self,
+        folder: &mut Folder,
+        case: &Case,
+        problem: &Problem,
+        begun: Begun,
+    ) -> Result<Written, OutputError> {
+        let Begun { start, mut progress, checkpoint } = begun;
+        let summary = write_running(folder, case, problem, usize::from(self.threads))?;
+        let solving = Instant::now();
+        let going_on = checkpoint.is_some();
+        if going_on {
+            folder.carry_over()?;
+        }
+        let between = (self.checkpoint > 0.0).then(|| Duration::from_secs_f64(self.checkpoint));
+        let broken = Broken::default();
+        let last = Instant::now();
+        let mut keeper = Keeper { folder, checkpoint, going_on, between, last, broken: &broken };
+        let mut camera = Camera { folder, going_on, broken: &broken };
+        let context = Context::new(&mut progress).threads(usize::from(self.threads));
+        let result = problem.run(&mut context.checkpoints(&mut keeper).frames(&mut camera));
+        drop(progress);
+        if let Some(error) = broken.into_inner() {
+            return Err(error);
+        }
+        let cost = Cost {
+            solve_s: solving.elapsed().as_secs_f64(),
+            total_s: start.elapsed().as_secs_f64(),
+            peak_memory_mb: peak_memory_mb(),
+            work_units: problem.cells() as f64,
+            ..Cost::default()
+        };
+        match &result {
+            Ok(outcome) => write_outcome(folder, summary, problem, outcome, cost, self.png),
+            Err(failure) => write_failure(folder, summary, problem, failure, cost, self.png),
+        }
+    }
+
     /// The checkpoint of the unfinished run in `out`, if there is one; one that cannot be used is refused.
     fn checkpoint(out: &Path, problem: &Problem) -> Result<Option<Vec<u8>>, CliError> {
         let Ok(bytes) = fs::read(out.join(CHECKPOINT)) else { return Ok(None) };
@@ -117,6 +138,25 @@ fn seconds(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "a number of seconds from 0 to 1e9".into())
 }
 
+/// What there is before a run is computed.
+struct Begun {
+    start: Instant,
+    progress: Progress,
+    checkpoint: Option<Vec<u8>>,
+}
+
+/// What could not be written first: no failure of the method, whatever that makes of it.
+type Broken = RefCell<Option<OutputError>>;
+
+/// Remembers an error of the folder, and says it to the run.
+fn breaks(broken: &Broken) -> impl Fn(OutputError) -> io::Error + '_ {
+    move |error| {
+        let said = io::Error::other(error.to_string());
+        broken.borrow_mut().get_or_insert(error);
+        said
+    }
+}
+
 /// Keeps the states of the run in its folder as they come.
 struct Keeper<'a> {
     folder: &'a Folder,
@@ -125,6 +165,7 @@ struct Keeper<'a> {
     /// time between two checkpoints that are not asked for, if there are any
     between: Option<Duration>,
     last: Instant,
+    broken: &'a Broken,
 }
 
 impl Checkpoints for Keeper<'_> {
@@ -134,7 +175,7 @@ impl Checkpoints for Keeper<'_> {
         }
         let bytes = content();
         self.last = Instant::now();
-        self.folder.write_on_the_way(CHECKPOINT, &bytes, self.going_on).map_err(io::Error::other)
+        self.folder.write_on_the_way(CHECKPOINT, &bytes, self.going_on).map_err(breaks(self.broken))
     }
 
     fn resumed(&mut self) -> Option<Vec<u8>> {
@@ -146,12 +187,13 @@ impl Checkpoints for Keeper<'_> {
 struct Camera<'a> {
     folder: &'a Folder,
     going_on: bool,
+    broken: &'a Broken,
 }
 
 impl Frames for Camera<'_> {
     fn take(&mut self, number: u64, content: &mut dyn FnMut() -> String) -> io::Result<()> {
         let name = format!("grains_{number:05}.vtp");
-        self.folder.write_on_the_way(&name, content().as_bytes(), self.going_on).map_err(io::Error::other)
+        self.folder.write_on_the_way(&name, content().as_bytes(), self.going_on).map_err(breaks(self.broken))
     }
 }
 

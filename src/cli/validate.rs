@@ -1,7 +1,6 @@
 //! `bedload validate`: re-run what the cases claim.
 
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use clap::Args;
 use serde_json::{Value, json};
@@ -10,10 +9,10 @@ use super::progress::Progress;
 use super::{CliError, Verb, answer, say};
 use crate::case::checks::Tier;
 use crate::model::Registry;
-use crate::plot;
+use crate::output::TableFile;
 use crate::units::significant;
 use crate::validate::scenes::{self, Judged};
-use crate::validate::{Row, Verdict, figure, markdown, validate};
+use crate::validate::{FIGURE, HEAD, Row, Verdict, figure, markdown, validate};
 
 /// Re-run what the cases claim and write the table.
 #[derive(Debug, Args)]
@@ -45,21 +44,16 @@ impl Verb for Validate {
 
     fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let tier = if self.full && !self.quick { Tier::Full } else { Tier::Quick };
-        let rows = validate(registry, &self.cases, tier, &mut Progress::new(self.json))?;
-        let judged =
-            if self.advice || self.full && self.cases.is_empty() { scenes::judge(registry) } else { Vec::new() };
         let default = (self.full && self.cases.is_empty())
             .then(|| PathBuf::from("docs/validation.md"))
             .filter(|_| Path::new("docs").is_dir());
-        if let Some(file) = self.out.or(default) {
-            if let Some(folder) = file.parent() {
-                fs::create_dir_all(folder)?;
-            }
+        let table = self.out.or(default).map(|file| TableFile::prepare(&file, HEAD, FIGURE)).transpose()?;
+        let rows = validate(registry, &self.cases, tier, &mut Progress::new(self.json))?;
+        let judged =
+            if self.advice || self.full && self.cases.is_empty() { scenes::judge(registry) } else { Vec::new() };
+        if let Some(table) = table {
             let advice = if judged.is_empty() { String::new() } else { scenes::markdown(&judged) };
-            let drawing = file.with_file_name("figures").join("validation.png");
-            fs::create_dir_all(drawing.with_file_name(""))?;
-            plot::png(&figure(&rows), &drawing).map_err(|error| io::Error::other(error.to_string()))?;
-            fs::write(&file, markdown(&rows) + &advice)?;
+            table.write(&(markdown(&rows) + &advice), &figure(&rows))?;
         }
         let verdicts = || rows.iter().map(|r| r.verdict).chain(judged.iter().map(|j| j.verdict));
         let red = verdicts().filter(|v| *v == Verdict::Red).count();

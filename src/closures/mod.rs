@@ -2,7 +2,7 @@
 //!
 //! A closure is a struct of its parameters, the same in the case file, in the problem and in the solver. Each family is
 //! an `enum` tagged by `law = "..."`; each file holds the equation, its symbols with units, the source, the range of
-//! validity, the implementation, and tests of its limits. `docs/adding-a-closure.md` walks through one.
+//! validity, the implementation, and tests of its limits. `docs/adding-a-law.md` walks through one.
 
 pub mod contact;
 pub mod dilatancy;

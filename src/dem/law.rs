@@ -2,7 +2,7 @@
 
 use super::lanes::scalar::One;
 use super::lanes::{Lanes, Vector, dot, minus, plus, scale};
-pub use crate::closures::contact::Tension;
+use crate::closures::contact::Tension;
 use crate::closures::contact::restitution::{self, RestitutionError};
 use crate::numerics::root;
 

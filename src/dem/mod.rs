@@ -42,7 +42,7 @@ pub use domain::{Domain, Wall};
 pub use engine::{Engine, Settings};
 pub use error::GrainError;
 pub use grains::{Grain, Grains, Point};
-pub use law::{ContactLaw, LinearSpring, Tension};
+pub use law::{ContactLaw, LinearSpring};
 pub use setup::{Bottom, Discrete, GrainBed};
 
 #[cfg(test)]

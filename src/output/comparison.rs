@@ -6,14 +6,17 @@ use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 
-use super::folder::{FIGURES, Folder, OutputError, holds_only};
+use super::error::OutputError;
+use super::folder::{Folder, Stands};
+use super::ours::{Kind, holds_only};
+use super::path::resolve;
 use super::run::{draw_png, read_summary};
 use super::study;
 use crate::compare::{Comparison, Request};
 use crate::result::{Cost, Provenance, Status};
 
-/// Files that the folder of a comparison may hold; anything else in it is not ours.
-pub(super) const OURS: &[&str] = &[RECORD, "norms.csv", "report.html", FIGURES];
+/// Files that the folder of a comparison may hold.
+pub(super) const FILES: &[&str] = &[RECORD, "norms.csv", "report.html"];
 /// Everything that a comparison has to say; the folder is known by it.
 const RECORD: &str = "compare.json";
 
@@ -38,15 +41,16 @@ pub(super) fn stands_in(folder: &Path) -> bool {
 /// # Errors
 /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
 pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Result<Folder, OutputError> {
-    Folder::claim(target, |folder| {
+    Folder::claim(&resolve(target)?, Kind::Comparison, |folder| {
         let Some(record) = read(folder) else {
             // A run or a study is ours as well, but no comparison takes its place.
             let holds = if study::stands_in(folder) { "study" } else { read_summary(folder).map(|_| "run")? };
             return Err(OutputError::OtherKind { folder: folder.into(), holds, wanted: "comparison" });
         };
-        holds_only(folder, OURS)?;
-        if force || record.request == *request {
-            return Ok(Status::Done);
+        holds_only(folder, Kind::Comparison)?;
+        let same = record.request == *request;
+        if force || same {
+            return Ok(Stands { status: Status::Done, same, goes_on: false });
         }
         let Request { subjects, data, .. } = record.request;
         Err(OutputError::OtherComparison { folder: folder.into(), of: [subjects, data].concat().join(", ") })
@@ -58,7 +62,20 @@ pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Resu
 /// # Errors
 /// [`OutputError::Interrupted`] with the file that cannot be written.
 pub fn write_comparison(
-    folder: Folder,
+    mut folder: Folder,
+    comparison: &Comparison,
+    request: &Request,
+    cost: &Cost,
+    provenance: &Provenance,
+    png: bool,
+) -> Result<Vec<PathBuf>, OutputError> {
+    let written = fill(&folder, comparison, request, cost, provenance, png);
+    let written = written.and_then(|drawn| folder.finish().map(|()| drawn));
+    written.map_err(|error| folder.failed(error))
+}
+
+fn fill(
+    folder: &Folder,
     comparison: &Comparison,
     request: &Request,
     cost: &Cost,
@@ -76,7 +93,5 @@ pub fn write_comparison(
     let figures = comparison.figures();
     let page = comparison.html(&figures, cost, provenance);
     folder.write("report.html", |to: &mut dyn Write| -> io::Result<()> { to.write_all(page.as_bytes()) })?;
-    let drawn = if png { draw_png(&folder.place("."), folder.path(), &figures)? } else { Vec::new() };
-    folder.finish()?;
-    Ok(drawn)
+    if png { draw_png(&folder.place, folder.path(), &figures) } else { Ok(Vec::new()) }
 }

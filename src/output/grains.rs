@@ -4,7 +4,9 @@ use std::fs;
 use std::io::BufReader;
 use std::path::Path;
 
-use super::folder::{Folder, OutputError, entries, write_whole};
+use super::error::OutputError;
+use super::folder::{Folder, write_whole};
+use super::ours::entries;
 use crate::result::Motion;
 
 /// State from which a run of grains goes on.
@@ -22,7 +24,7 @@ pub(super) fn read_motion(place: &Path) -> Option<Motion> {
 /// Written and removed to see whether files can be made.
 pub(super) const PROBE: &str = ".probe";
 
-/// What a run that was killed may leave behind.
+/// What a run that was killed may leave behind in its folder, but for locks.
 pub(super) fn is_partial(name: &str) -> bool {
     name == PROBE || name.starts_with('.') && name.contains(".part-")
 }
@@ -37,10 +39,11 @@ impl Folder {
     ///
     /// # Errors
     /// [`OutputError::Interrupted`] with the file.
-    pub fn carry_over(&self) -> Result<(), OutputError> {
+    pub fn carry_over(&mut self) -> Result<(), OutputError> {
         if self.place == self.target {
             return Ok(());
         }
+        self.carried = true;
         for (name, _) in entries(&self.target).unwrap_or_default() {
             if name == CHECKPOINT || is_frame(&name) {
                 let path = self.place.join(&name);

@@ -1,13 +1,21 @@
 //! The output folder: what is in it, who may replace it, and how it is written so that nothing is ever half there.
 
 mod comparison;
+mod error;
 mod folder;
 mod grains;
+mod lock;
+mod ours;
+mod path;
 mod run;
 mod study;
+mod table;
 
 pub use comparison::{prepare_comparison, write_comparison};
-pub use folder::{Folder, Mode, OutputError};
+pub use error::{Finished, Holder, OutputError};
+pub use folder::{Folder, Mode};
 pub use grains::CHECKPOINT;
+pub use path::default_folder;
 pub use run::{Written, fingerprint, read_run, read_series, redraw, write_failure, write_outcome, write_running};
 pub use study::StudyFolder;
+pub use table::TableFile;

@@ -8,8 +8,12 @@ use std::process;
 use serde_json::Map;
 use sha2::{Digest, Sha256};
 
-use super::folder::{Folder, OutputError, write_whole};
+use super::error::OutputError;
+use super::folder::{Folder, write_whole};
 use super::grains::{MOTION, read_motion};
+use super::lock::Site;
+use super::ours::FIGURES;
+use super::path::resolve;
 use crate::case::Case;
 use crate::model::{Problem, Registry};
 use crate::plot::{self, Figure, Page};
@@ -75,7 +79,7 @@ pub fn write_running(folder: &Folder, case: &Case, problem: &Problem, threads: u
 /// # Errors
 /// [`OutputError::Interrupted`] with the file that cannot be written.
 pub fn write_outcome(
-    folder: Folder,
+    folder: &mut Folder,
     mut summary: Summary,
     problem: &Problem,
     outcome: &Outcome,
@@ -84,7 +88,7 @@ pub fn write_outcome(
 ) -> Result<Written, OutputError> {
     summary.status = outcome.status;
     fill(&mut summary, outcome, cost);
-    let figures = write_body(&folder, &summary, problem, Some(outcome), png)?;
+    let figures = write_body(folder, &summary, problem, Some(outcome), png)?;
     complete(folder, summary, figures)
 }
 
@@ -93,7 +97,7 @@ pub fn write_outcome(
 /// # Errors
 /// [`OutputError::Interrupted`] with the file that cannot be written.
 pub fn write_failure(
-    folder: Folder,
+    folder: &mut Folder,
     mut summary: Summary,
     problem: &Problem,
     failure: &Failure,
@@ -115,7 +119,7 @@ pub fn write_failure(
     } else {
         summary.cost = cost;
     }
-    let figures = write_body(&folder, &summary, problem, last.as_deref(), png)?;
+    let figures = write_body(folder, &summary, problem, last.as_deref(), png)?;
     complete(folder, summary, figures)
 }
 
@@ -127,11 +131,13 @@ fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
     summary.cost = cost;
 }
 
-fn complete(folder: Folder, summary: Summary, figures: Vec<PathBuf>) -> Result<Written, OutputError> {
-    write_summary(&folder, &summary)?;
+fn complete(folder: &mut Folder, summary: Summary, figures: Vec<PathBuf>) -> Result<Written, OutputError> {
+    write_summary(folder, &summary)?;
     // Ctrl-C loses nothing: what is only begun does not replace what is done.
     let kept = summary.status == Status::Stopped && folder.over_finished();
-    if !kept {
+    if kept {
+        folder.give_way();
+    } else {
         folder.finish()?;
     }
     Ok(Written { summary, figures, kept })
@@ -164,7 +170,7 @@ fn write_body(
         write_fields(folder, outcome)?;
     }
     let case = fs::read_to_string(folder.place("case.toml")).unwrap_or_default();
-    draw(&folder.place("."), folder.path(), summary, profile, problem, &case, png)
+    draw(&folder.place, folder.path(), summary, profile, problem, &case, png)
 }
 
 /// Fields, grains and animation: what the report draws besides the tables.
@@ -251,21 +257,25 @@ fn picture(place: &Path, summary: &Summary) -> Option<(String, &'static str)> {
 
 /// Draws figures as PNG into `place`/figures; `shown` is what that place is called in the paths that are returned.
 pub(super) fn draw_png(place: &Path, shown: &Path, figures: &[Figure]) -> Result<Vec<PathBuf>, OutputError> {
-    let folder = place.join("figures");
+    let folder = place.join(FIGURES);
+    // A link would lead to somebody's files.
+    if fs::symlink_metadata(&folder).is_ok_and(|known| !known.is_dir()) {
+        return Err(OutputError::NotAFolder(folder));
+    }
     fs::create_dir_all(&folder).map_err(|error| OutputError::Interrupted { path: folder.clone(), error })?;
     figures.iter().map(|figure| draw_one(place, shown, &figure.stem, |path| plot::png(figure, path))).collect()
 }
 
 /// Draws one picture into `place`/figures and returns what its path is called.
-fn draw_one(
+pub(super) fn draw_one(
     place: &Path,
     shown: &Path,
     stem: &str,
     draw: impl FnOnce(&Path) -> Result<(), plot::PlotError>,
 ) -> Result<PathBuf, OutputError> {
-    let name = format!("figures/{stem}.png");
+    let name = format!("{FIGURES}/{stem}.png");
     // Drawn beside and renamed, as every file: the ending tells the format.
-    let partial = place.join("figures").join(format!(".{stem}.part-{}.png", process::id()));
+    let partial = place.join(FIGURES).join(format!(".{stem}.part-{}.png", process::id()));
     let drawn = draw(&partial).map_err(io::Error::other).and_then(|()| fs::rename(&partial, place.join(&name)));
     if let Err(error) = drawn {
         let _ = fs::remove_file(&partial);
@@ -316,6 +326,14 @@ fn read_text(folder: &Path, name: &str) -> Result<String, OutputError> {
 /// [`OutputError::NotARun`] if the folder does not hold a run, [`OutputError::Interrupted`] if it cannot be written.
 pub fn redraw(registry: &Registry, folder: &Path, png: bool) -> Result<Written, OutputError> {
     let wrong = |reason: String| OutputError::NotARun { folder: folder.into(), reason };
+    let before = read_run(folder);
+    let _site = match Site::take(&resolve(folder)?) {
+        Ok(site) => site,
+        Err(error @ OutputError::InUse { .. }) => return Err(error),
+        // What stands there tells more than that no lock can be made.
+        Err(error) => return before.and(Err(error)),
+    };
+    // Read again: it may have been written until it was locked.
     let (summary, profile) = read_run(folder)?;
     let text = read_text(folder, "case.toml")?;
     if let Ok(file) = fs::File::open(folder.join("series.csv")) {

@@ -9,19 +9,20 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::comparison;
-use super::folder::{self, FIGURES, Folder, Mode, OutputError, entries, holds_only};
+use super::error::OutputError;
+use super::folder::{Folder, Mode, Stands};
+use super::ours::{self, Kind, POINTS, entries, holds_only};
+use super::path::resolve;
 use super::run::{draw_png, read_summary};
 use crate::plot::Figure;
 use crate::result::Status;
 
-/// Files that the folder of a study may hold; anything else in it is not ours.
-pub(super) const OURS: &[&str] = &[RECORD, TABLE, PARAMETERS, "report.html", FIGURES, POINTS];
+/// Files that the folder of a study may hold.
+pub(super) const FILES: &[&str] = &[RECORD, TABLE, PARAMETERS, "report.html"];
 /// Everything that a study has to say; the folder is known by it.
 const RECORD: &str = "study.json";
 const TABLE: &str = "points.csv";
 const PARAMETERS: &str = "parameters.csv";
-/// The folder of the run folders.
-pub(super) const POINTS: &str = "points";
 
 /// What tells one study from another, and how it ended.
 #[derive(Deserialize)]
@@ -51,12 +52,23 @@ impl StudyFolder {
     /// # Errors
     /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
     pub fn prepare(target: &Path, plan: &str, mode: Mode) -> Result<Self, OutputError> {
-        if mode.resume && !mode.force && read(target).is_some_and(|record| record.plan_sha256 == plan) {
-            holds_study_only(target)?;
-            clear(&target.join(POINTS));
-            return Ok(Self(Folder::go_on(target)));
-        }
-        Folder::claim(target, |folder| may_replace(folder, plan, mode)).map(Self)
+        let folder = Folder::claim(&resolve(target)?, Kind::Study, |folder| may_replace(folder, plan, mode))?;
+        clear(&folder.place(POINTS));
+        Ok(Self(folder))
+    }
+
+    /// Prepares the folder of the run of the resolved case `case`, which has this fingerprint.
+    ///
+    /// # Errors
+    /// [`OutputError`] if it holds anything that must not be replaced, or cannot be written.
+    pub fn prepare_point(&self, sha256: &str, case: &str) -> Result<Folder, OutputError> {
+        Folder::of_point(&self.point(sha256), case)
+    }
+
+    /// What broke on the way, with the points that stay.
+    #[must_use]
+    pub fn failed(&self, error: OutputError) -> OutputError {
+        self.0.failed(error)
     }
 
     /// Where the run of the resolved case with this fingerprint is being written.
@@ -95,7 +107,7 @@ impl StudyFolder {
     /// # Errors
     /// [`OutputError::Interrupted`] with the file that cannot be written.
     pub fn finish(
-        self,
+        &mut self,
         (status, record): (Status, &Value),
         table: impl FnOnce(&mut dyn Write) -> io::Result<()>,
         page: &str,
@@ -105,30 +117,41 @@ impl StudyFolder {
         let Self(folder) = self;
         folder.write(TABLE, table)?;
         folder.write("report.html", |to| to.write_all(page.as_bytes()))?;
-        let drawn = if png { draw_png(&folder.place("."), folder.path(), figures)? } else { Vec::new() };
+        let drawn = if png { draw_png(&folder.place, folder.path(), figures)? } else { Vec::new() };
         folder.write(RECORD, |to| writeln!(to, "{record:#}"))?;
         // Ctrl-C loses nothing: what is only begun does not replace what is done.
         let kept = status == Status::Stopped && folder.over_finished();
-        if !kept {
+        if kept {
+            folder.give_way();
+        } else {
             folder.finish()?;
         }
         Ok((drawn, kept))
     }
 }
 
-fn may_replace(folder: &Path, plan: &str, mode: Mode) -> Result<Status, OutputError> {
+fn may_replace(folder: &Path, plan: &str, mode: Mode) -> Result<Stands, OutputError> {
     let Some(record) = read(folder) else {
         // A run or a comparison is ours as well, but no study takes its place.
         let holds = if comparison::stands_in(folder) { "comparison" } else { read_summary(folder).map(|_| "run")? };
         return Err(OutputError::OtherKind { folder: folder.into(), holds, wanted: "study" });
     };
-    holds_study_only(folder)?;
+    holds_only(folder, Kind::Study)?;
+    let stands = Stands { status: record.status, same: record.plan_sha256 == plan, goes_on: false };
     match record.status {
-        status if mode.force => Ok(status),
-        _ if record.plan_sha256 != plan => Err(OutputError::OtherStudy { folder: folder.into(), of: record.command }),
-        Status::Done => Ok(Status::Done),
+        _ if mode.force => Ok(stands),
+        _ if !stands.same => Err(OutputError::OtherStudy { folder: folder.into(), of: record.command }),
+        _ if mode.resume => Ok(Stands { goes_on: true, ..stands }),
+        Status::Done => Ok(stands),
         status => Err(OutputError::UnfinishedStudy { folder: folder.into(), status }),
     }
+}
+
+/// How many points of a study are done.
+pub(super) fn points_done(folder: &Path) -> usize {
+    let points = folder.join(POINTS);
+    let done = |name: &str| read_summary(&points.join(name)).is_ok_and(|summary| summary.status == Status::Done);
+    entries(&points).unwrap_or_default().iter().filter(|(name, _)| !name.starts_with('.') && done(name)).count()
 }
 
 /// Removes what a killed study left of points that had no summary yet. What cannot be removed is refused as a run folder.
@@ -136,22 +159,7 @@ fn clear(points: &Path) {
     for (name, _) in entries(points).unwrap_or_default() {
         let place = points.join(&name);
         if name.starts_with('.') || read_summary(&place).is_err() {
-            let _ = fs::remove_dir_all(place);
+            ours::remove(&place, Kind::Run);
         }
     }
-}
-
-/// Whether a study folder and the run folders in it hold nothing but what we wrote.
-fn holds_study_only(folder: &Path) -> Result<(), OutputError> {
-    holds_only(folder, OURS)?;
-    let points = folder.join(POINTS);
-    for (name, is_folder) in entries(&points).unwrap_or_default() {
-        let between_two = name.starts_with('.') && (name.contains(".new-") || name.contains(".old-"));
-        let named = name.len() == 16 && name.chars().all(|c| c.is_ascii_hexdigit());
-        if !is_folder || !(named || between_two) {
-            return Err(OutputError::Foreign { folder: folder.into(), entry: format!("{POINTS}/{name}") });
-        }
-        holds_only(&points.join(name), folder::OURS)?;
-    }
-    Ok(())
 }

@@ -3,6 +3,7 @@
 
 mod checkpoint;
 mod context;
+mod failure;
 mod field;
 mod motion;
 mod outcome;
@@ -14,9 +15,10 @@ mod watch;
 
 pub use checkpoint::CheckpointError;
 pub use context::{Checkpoints, Context, Frames};
+pub use failure::{Failure, SolveError};
 pub use field::{Field, SideView};
 pub use motion::{Motion, base64};
-pub use outcome::{Failure, Outcome, SolveError};
+pub use outcome::Outcome;
 pub use provenance::Provenance;
 pub use quantity::Quantity;
 pub use summary::{Balance, Cost, ErrorReport, Reported, Results, Status, Summary, Validity};

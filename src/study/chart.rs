@@ -85,7 +85,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
     let (_, problem) = registry.load(first, &request.overrides).map_err(Box::new)?;
     let mut points = accepted(registry, rungs(None, &problem), first, &request.overrides);
     for case in others {
-        let (_, problem) = registry.load(case, &[]).map_err(Box::new)?;
+        let problem = registry.load(case, &[]).map_err(Box::new)?.1;
         let mut more = accepted(registry, rungs(Some(case), &problem), case, &[]);
         let alone = more.iter().all(|point| point.series == problem.kind);
         for point in &mut more {
@@ -112,8 +112,8 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
         points,
         repeats: REPEATS,
     };
-    let wanted = request.quantity.clone();
-    Ok((plan, Box::new(move |rows: &[Row]| judge(rows, wanted.as_deref(), given.or(exact).as_ref()))))
+    let name = request.quantity.clone();
+    Ok((plan, Box::new(move |rows: &[Row]| judge(rows, name.as_deref(), given.or(exact).as_ref()))))
 }
 
 /// The points that their case accepts.
@@ -122,7 +122,7 @@ fn accepted(registry: &Registry, points: Vec<Point>, case: &str, overrides: &[St
     points.into_iter().filter(fits).collect()
 }
 
-/// A value with its standard error, if a reference has the quantity.
+/// A value with its standard error, if a reference has it.
 type Value = Box<dyn Fn(&Quantity) -> Option<(f64, Option<f64>)> + Send>;
 
 /// Numbers of a reference: their place in words, and each with its value and standard error.
@@ -161,8 +161,11 @@ fn truth(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Optio
     // Without a reference of its own, the finest point, else the last one of the first series that is done.
     let first = rows.first().map(|row| row.point.series.as_str());
     let done = |row: &&Row| row.status == Status::Done;
-    let point = rows.iter().find(|row| row.point.series == REFERENCE).filter(done);
-    let point = point.or_else(|| rows.iter().rfind(|row| Some(row.point.series.as_str()) == first && done(row)));
+    let point = rows
+        .iter()
+        .find(|row| row.point.series == REFERENCE)
+        .filter(done)
+        .or_else(|| rows.iter().rfind(|row| Some(row.point.series.as_str()) == first && done(row)));
     let of = |quantity: &'static Quantity| -> Option<Truth> {
         let (value, error, words) = match numbers {
             Some(Numbers(words, of)) => of(quantity).map(|(value, error)| (value, error, words.clone()))?,
@@ -391,11 +394,8 @@ mod tests {
             ("sheet_1d_sumer91", "exact", "sheet-flow has no closed form"),
             ("sheet_1d_sumer91", "no/such/folder", "no/such/folder"),
         ] {
-            let said = plan(&crate::models::builtin(), &request(case, reference))
-                .err()
-                .map(|e| e.to_string())
-                .unwrap_or_default();
-            assert!(said.contains(words), "{said}");
+            let error = plan(&crate::models::builtin(), &request(case, reference)).err().unwrap().to_string();
+            assert!(error.contains(words), "{error}");
         }
     }
 }

@@ -5,7 +5,7 @@ use super::range::{Varied, number_and_unit, parse};
 use super::stability::Request;
 use super::{Row, StudyError};
 use crate::case::CaseError;
-pub use crate::case::checks::Class;
+use crate::case::checks::Class;
 use crate::model::ClosedForm;
 use crate::model::Registry;
 use crate::result::Context;

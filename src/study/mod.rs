@@ -31,7 +31,7 @@ use serde_json::{Map, Value};
 
 use crate::case::{CaseError, nearest};
 use crate::compare::DataError;
-use crate::output::OutputError;
+use crate::output::{OutputError, default_folder};
 use crate::plot::Figure;
 use crate::result::{Cost, ErrorReport, Profile, Results, Status};
 
@@ -239,7 +239,7 @@ impl StudyError {
             Self::BadSigma { .. } => "give one sigma in SI, or COLUMN=sigma; it holds where the data have none".into(),
             Self::Data(error) => error.fault.hint(),
             Self::Case(_) => String::new(),
-            Self::Output(error) => error.hint().unwrap_or_default().into(),
+            Self::Output(error) => error.hint().unwrap_or_default(),
             Self::Threads { .. } => "ask for fewer with --threads".into(),
         }
     }
@@ -261,7 +261,7 @@ impl Plan {
     pub fn folder(&self, name: &str) -> PathBuf {
         let variant = self.options.iter().find(|(option, _)| option == "over" && self.verb == "converge");
         let variant = variant.map(|(_, value)| format!("-{value}")).unwrap_or_default();
-        PathBuf::from("runs").join(format!("{}-{name}{variant}", self.verb))
+        default_folder(&format!("{}-{name}{variant}", self.verb))
     }
 }
 

@@ -98,20 +98,44 @@ pub fn conduct(plan: &Plan, settings: &Settings<'_>, next: Next) -> Result<Condu
     };
     let out = settings.out.clone().unwrap_or_else(|| plan.folder(&name));
     let identity = identity(plan, &loaded);
-    let folder = StudyFolder::prepare(&out, &identity, settings.mode)?;
+    let mut folder = StudyFolder::prepare(&out, &identity, settings.mode)?;
+    let begun = Begun { start, name: &name, identity: &identity, out };
+    carry_out(plan, settings, loaded, next, begun, &mut folder).map_err(|error| match error {
+        StudyError::Output(error) => StudyError::Output(folder.failed(error)),
+        other => other,
+    })
+}
+
+/// What is known of a study before it is carried out.
+struct Begun<'a> {
+    start: Instant,
+    name: &'a str,
+    identity: &'a str,
+    out: PathBuf,
+}
+
+fn carry_out(
+    plan: &Plan,
+    settings: &Settings<'_>,
+    loaded: Vec<Loaded>,
+    next: Next,
+    begun: Begun<'_>,
+    folder: &mut StudyFolder,
+) -> Result<Conducted, StudyError> {
+    let Begun { start, name, identity, out } = begun;
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(settings.threads)
         .build()
         .map_err(|error| StudyError::Threads { wanted: settings.threads, reason: error.to_string() })?;
     let mut provenance = Provenance { source: plan.case.clone(), ..Provenance::of_this_program() };
     (provenance.overrides, provenance.threads) = (plan.overrides.clone(), threads.current_num_threads());
-    let head = record::Head { plan, name: &name, identity: &identity, command: &settings.command };
+    let head = record::Head { plan, name, identity, command: &settings.command };
     folder.begin(&head.running(&provenance))?;
     let (rows, resumed, judge) = threads.install(|| -> Result<_, OutputError> {
-        let (mut rows, resumed) = run(plan, &plan.points, loaded, &folder, settings)?;
+        let (mut rows, resumed) = run(plan, &plan.points, loaded, folder, settings)?;
         let (points, judge) = next(&rows, settings.observer);
         let loaded = points.iter().map(|point| load(settings.registry, plan, point)).collect();
-        let (more, again) = run(plan, &points, loaded, &folder, settings)?;
+        let (more, again) = run(plan, &points, loaded, folder, settings)?;
         rows.extend(more);
         Ok((rows, resumed + again, judge))
     })?;
@@ -178,13 +202,15 @@ fn run(
     let all = jobs.len();
     let solved = jobs.par_iter().filter_map(|one| Some((one.sha256.as_ref()?, one.case.as_ref().ok()?))).map(
         |(sha256, case)| {
-            let place = folder.point(sha256);
-            let row = match finished(&place, settings.mode) {
+            let row = match finished(&folder.point(sha256), settings.mode) {
                 Some(row) => {
                     resumed.fetch_add(1, Ordering::Relaxed);
                     row
                 }
-                None => solve(case, &place, settings.observer, plan.repeats)?,
+                None => {
+                    let prepare = || folder.prepare_point(sha256, &case.2);
+                    solve(case, prepare, settings.observer, plan.repeats)?
+                }
             };
             settings.observer.done(ended.fetch_add(1, Ordering::Relaxed) + 1, all);
             Ok((sha256.clone(), row))
@@ -216,8 +242,8 @@ fn finished(place: &Path, mode: Mode) -> Option<Row> {
 
 /// Solves one case into its run folder.
 fn solve(
-    (case, problem, resolved): &(Case, Problem, String),
-    place: &Path,
+    (case, problem, _): &(Case, Problem, String),
+    prepare: impl FnOnce() -> Result<Folder, OutputError>,
     observer: &dyn Observer,
     repeats: usize,
 ) -> Result<Row, OutputError> {
@@ -225,8 +251,7 @@ fn solve(
         return Ok(Row::empty(Status::Stopped));
     }
     let start = Instant::now();
-    // The folder of a point is named by its case: whatever run stands in it is an unfinished one of this case.
-    let folder = Folder::prepare(place, resolved, Mode { force: true, resume: true })?;
+    let mut folder = prepare()?;
     let summary = write_running(&folder, case, problem, 1)?;
     let solving = Instant::now();
     let result = problem.run(&mut Context::new(&mut Listening(observer)));
@@ -248,7 +273,7 @@ fn solve(
     };
     Ok(match result {
         Ok(outcome) => {
-            let written = write_outcome(folder, summary, problem, &outcome, cost, false)?.summary;
+            let written = write_outcome(&mut folder, summary, problem, &outcome, cost, false)?.summary;
             Row {
                 results: written.results,
                 iterations: outcome.series.as_ref().map(|series| series.rows()),
@@ -258,7 +283,7 @@ fn solve(
             }
         }
         Err(failure) => {
-            let written = write_failure(folder, summary, problem, &failure, cost, false)?.summary;
+            let written = write_failure(&mut folder, summary, problem, &failure, cost, false)?.summary;
             Row { error: written.error, results: written.results, cost: written.cost, ..Row::empty(Status::Failed) }
         }
     })

@@ -10,9 +10,10 @@ use serde_json::json;
 
 use super::chart::time_text;
 use super::converge::{Judge, error_text};
-use super::limits::{Class, Found, limits, solved};
+use super::limits::{Found, limits, solved};
 use super::range::{MOST, Varied, number_and_unit, parse};
 use super::{Judgement, Plan, Point, Row, StudyError};
+use crate::case::checks::Class;
 use crate::model::Registry;
 use crate::plot::{Axis, Curve, Figure, Marker, Panel, Scale};
 use crate::result::Status;

@@ -16,6 +16,9 @@ use crate::study::limits::{self, Along};
 use crate::study::stability::Request;
 use crate::units::significant;
 
+/// Stem of the figure beside the table.
+pub const FIGURE: &str = "validation";
+
 /// How a row ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
@@ -206,7 +209,7 @@ pub fn figure(rows: &[Row]) -> Figure {
         of(CheckKind::Finding, "finding: shown, not judged", 4, Marker::Cross),
     ];
     Figure {
-        stem: "validation".into(),
+        stem: FIGURE.into(),
         caption: "Deviation of every checked number against its tolerance: what is judged lies below the line.".into(),
         y: Axis::log("deviation from the expected value", "1"),
         panels: vec![Panel { x: Axis::log("tolerance", "1"), curves }],
@@ -215,12 +218,15 @@ pub fn figure(rows: &[Row]) -> Figure {
     }
 }
 
+/// What the table begins with; it is known as ours by that.
+pub const HEAD: &str = "# Validation\n\nMade by bedload ";
+
 /// The table as Markdown: `docs/validation.md`.
 #[must_use]
 pub fn markdown(rows: &[Row]) -> String {
     let made = Provenance::of_this_program();
     let mut text = format!(
-        "# Validation\n\nMade by bedload {} ({}), {}, {}.\n\n![Deviation against tolerance](figures/validation.png)\n\n",
+        "{HEAD}{} ({}), {}, {}.\n\n![Deviation against tolerance](figures/{FIGURE}.png)\n\n",
         made.bedload, made.commit, made.rustc, made.target
     );
     text += "Written by `bedload validate --full`; do not edit. Each row is a `[[check]]` of a shipped case (run the case \

@@ -20,7 +20,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("column", &["closures", "numerics"]),
     ("dem", &["closures", "numerics", "result", "runtime", "units"]),
     ("model", &["case", "closures", "result"]),
-    ("models", &["case", "closures", "dem", "model", "models::exact"]),
+    ("models", &["case", "closures", "dem", "model", "models::exact", "result"]),
     ("plot", &["result", "units"]),
     ("compare", &["case", "plot", "result", "units"]),
     ("output", &["plot", "result", "units"]),
@@ -173,7 +173,7 @@ fn edges(own: &str, depth: usize, text: &str) -> Vec<String> {
     for path in paths {
         let name = target(&path).unwrap_or_else(|| path.join("::"));
         // Macros stand at the root of the crate.
-        if name != own && name != "tables" {
+        if name != own && name != "tables" && !found.contains(&name) {
             found.push(name);
         }
     }

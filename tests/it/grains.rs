@@ -32,7 +32,7 @@ const CASE: &[&str] = &[
     "--quiet",
 ];
 
-fn case(more: &[&str]) -> Vec<String> {
+pub fn case(more: &[&str]) -> Vec<String> {
     CASE.iter().chain(more).map(|&word| word.to_owned()).collect()
 }
 

@@ -143,6 +143,26 @@ fn kill_leaves_every_file_whole_or_absent() {
     assert_eq!(scratch.summary("out")["status"], "done");
 }
 
+#[test]
+fn a_kill_between_two_renames_loses_nothing() {
+    let scratch = Scratch::new();
+    for out in ["out", "deep/out"] {
+        let run = ["run", CASE, "--out", out, "--quiet"];
+        scratch.bedload(run).exits(0);
+        let before = scratch.snapshot(out);
+        let old = out.replace("out", ".out.old-77");
+        fs::rename(scratch.path(out), scratch.path(&old)).unwrap();
+        let said = scratch.bedload(run.iter().chain(&["--set", "grid.cells=50", "--json"])).exits(2).json();
+        assert_eq!(said["error"]["code"], "other-case");
+        assert!(scratch.snapshot(out) == before && !scratch.path(&old).exists(), "{out}");
+        // A folder that is there is not replaced by an older one.
+        fs::create_dir(scratch.path(&old)).unwrap();
+        scratch.bedload(run).exits(0);
+        assert!(scratch.path(&old).exists());
+        fs::remove_dir(scratch.path(&old)).unwrap();
+    }
+}
+
 /// Size of the largest file of a finished run [bytes].
 fn largest(scratch: &Scratch, folder: &str) -> usize {
     scratch.snapshot(folder).values().map(Vec::len).max().unwrap()

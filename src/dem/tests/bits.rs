@@ -1,8 +1,9 @@
 use super::{Domain, G, R, RHO, gas, go, hash, law};
+use crate::closures::contact::Tension;
 use crate::dem::checkpoint::{Reader, Writer};
 use crate::dem::lanes::Backend;
 use crate::dem::law::Lammps;
-use crate::dem::{Engine, Grain, LinearSpring, Settings, Tension, Wall};
+use crate::dem::{Engine, Grain, LinearSpring, Settings, Wall};
 use crate::result::CheckpointError;
 
 /// Grains of several sizes that fall on fixed ones, between walls.

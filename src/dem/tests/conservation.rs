@@ -1,5 +1,6 @@
 use super::{Domain, G, R, Which, engine, gas, go, law, trial};
-use crate::dem::{Grain, Tension, Wall};
+use crate::closures::contact::Tension;
+use crate::dem::{Grain, Wall};
 use crate::models::grains::Trial;
 use crate::models::grains::trials::{clouds, found};
 use crate::result::quantity as q;

@@ -1,7 +1,8 @@
 use super::{Domain, G, R, RHO, engine, floor, grain, law};
+use crate::closures::contact::Tension;
 use crate::dem::body::Nothing;
 use crate::dem::stability;
-use crate::dem::{Engine, Grain, GrainError, Settings, Tension};
+use crate::dem::{Engine, Grain, GrainError, Settings};
 
 #[test]
 fn what_cannot_go_on_is_named_with_grain_step_and_place() {

@@ -1,12 +1,13 @@
 //! Details of the law, the list and the averages that no trial would notice.
 
 use super::{Domain, G, R, RHO, engine, floor, gas, go, grain, law};
+use crate::closures::contact::Tension;
 use crate::dem::GrainBed;
 use crate::dem::average::Averages;
 use crate::dem::body::Nothing;
 use crate::dem::lanes::scalar::One;
 use crate::dem::law::{Contact, ContactLaw};
-use crate::dem::{Engine, Grain, Settings, Tension};
+use crate::dem::{Engine, Grain, Settings};
 use crate::model::read;
 
 fn contact(parting: f64, spring: [f64; 3]) -> Contact<One> {

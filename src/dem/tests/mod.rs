@@ -8,8 +8,9 @@ mod laws;
 mod motion;
 
 use super::body::Nothing;
-use super::{Domain, Engine, Grain, LinearSpring, Point, Settings, Tension, Wall};
+use super::{Domain, Engine, Grain, LinearSpring, Point, Settings, Wall};
 use crate::closures::contact;
+use crate::closures::contact::Tension;
 use crate::models::grains::Trial;
 use crate::models::grains::case::Trial as Which;
 

@@ -1,5 +1,6 @@
 use super::{Domain, G, R, RHO, Which, engine, floor, go, grain, law, trial};
-use crate::dem::{Grain, Tension, Wall};
+use crate::closures::contact::Tension;
+use crate::dem::{Grain, Wall};
 use crate::models::grains::Trial;
 use crate::models::grains::trials::{found, motion};
 use crate::result::quantity as q;
