@@ -384,11 +384,9 @@ mod tests {
 
     #[test]
     fn what_cannot_be_a_reference_is_refused() {
-        let request = |case: &str, reference: &str| Request {
-            cases: vec![case.into()],
-            overrides: Vec::new(),
-            quantity: None,
-            reference: Some(reference.into()),
+        let request = |case: &str, reference: &str| {
+            let (cases, reference) = (vec![case.into()], Some(reference.into()));
+            Request { cases, overrides: Vec::new(), quantity: None, reference }
         };
         for (case, reference, words) in [
             ("sheet_1d_sumer91", "exact", "sheet-flow has no closed form"),
