@@ -57,11 +57,8 @@ impl Site {
             };
             match lock {
                 Ok(lock) => return Ok(Self { _lock: lock, _above: above }),
-                Err(OutputError::Unwritable { error, .. })
-                    if error.kind() == ErrorKind::NotFound && locked.parent().is_some_and(|above| !above.is_dir()) =>
-                {
-                    last = Some(error);
-                }
+                // The folder above was taken back after it was found, and may be there again by now.
+                Err(OutputError::Unwritable { error, .. }) if error.kind() == ErrorKind::NotFound => last = Some(error),
                 Err(error) => return Err(error),
             }
         }

@@ -59,7 +59,6 @@ const DEBTS: &[(&str, &str)] = &[
     ("plot", "models::coupled"),
     ("output", "case"),
     ("output", "compare"),
-    ("output", "dem"),
     ("output", "model"),
 ];
 
