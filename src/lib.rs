@@ -19,31 +19,48 @@
 //! | [`plot`], [`compare`], [`output`] | figures and pages; runs and measured profiles side by side; folders |
 //! | [`study`] | one case at many points: `converge`, `sweep`, `chart`, `stability`, `calibrate` |
 //! | [`advise`], [`validate`] | the least model that a flow needs; what the cases claim, run again |
+//! | [`prelude`] | what a user of the library writes with |
 //! | [`cli`] | the command line, one file per verb |
 //!
-//! ```
-//! use bedload::{models, result::{Context, Quiet}};
+//! `--no-default-features` leaves the solvers: no figures, folders and studies (feature `plot`), no command line (feature `cli`).
 //!
-//! let set = ["flow.pressure_gradient=80 Pa/m".to_owned()];
-//! let (_, problem) = models::builtin().load("exact_1d_aussillous", &set).unwrap();
-//! let outcome = problem.run(&mut Context::new(&mut Quiet)).unwrap();
-//! assert!(outcome.results.get("transport_rate_m2_s").unwrap() > 0.0);
+//! ```
+//! use bedload::prelude::*;
+//!
+//! // A shipped case or a file, with changes as after `--set`: every violation is reported at once, with its place.
+//! let (case, problem) = builtin().load("exact_1d_aussillous", &["flow.pressure_gradient=80 Pa/m".into()])?;
+//! println!("{}\n{}", case.about().title, problem.describe().equations);
+//! let outcome = Simulation::new(&problem).threads(2).run()?;
+//! let rate = outcome.results.get("transport_rate_m2_s").ok_or("no rate")?;
+//! assert!((rate / 1.73e-5 - 1.0).abs() < 0.01, "{rate}");
+//! let profile = outcome.profile.ok_or("no profile")?;
+//! for (z, u) in profile.axis().iter().zip(profile.get(&quantity::U_MIXTURE).ok_or("no velocity")?) {
+//!     assert!(*z >= 0.0 && u.is_some_and(f64::is_finite));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 pub mod advise;
 pub mod case;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod closures;
 pub mod column;
+#[cfg(feature = "plot")]
 pub mod compare;
 pub mod dem;
 pub mod model;
 pub mod models;
 pub mod numerics;
+#[cfg(feature = "plot")]
 pub mod output;
+#[cfg(feature = "plot")]
 pub mod plot;
+pub mod prelude;
 pub mod result;
 pub mod runtime;
+#[cfg(feature = "plot")]
 pub mod study;
 pub mod units;
+#[cfg(feature = "plot")]
 pub mod validate;

@@ -8,6 +8,8 @@
 
 mod advice;
 mod angle;
+#[cfg(feature = "cli")]
+mod carets;
 pub mod checks;
 mod diagnose;
 mod document;
@@ -51,7 +53,7 @@ pub struct Case {
 
 /// A case that cannot be used: the text and everything that is wrong with it.
 #[derive(Debug, thiserror::Error)]
-#[error("{} in {}", count(violations.len()), document.texts[0].name)]
+#[error("{} in {}{}", count(violations.len()), document.texts[0].name, listed(violations))]
 pub struct CaseError {
     document: Document,
     /// what is wrong, in the order of the checks
@@ -62,6 +64,13 @@ pub struct CaseError {
 
 fn count(n: usize) -> String {
     if n == 1 { "1 error".into() } else { format!("{n} errors") }
+}
+
+/// What is wrong, a line each, for those who print the error without its text.
+fn listed(violations: &[Violation]) -> String {
+    let line = |v: &Violation| format!("\n  {}: {}", if v.path.is_empty() { "case" } else { &v.path }, v.fault);
+    let shown: String = violations.iter().take(render::SHOWN).map(line).collect();
+    printable(&shown)
 }
 
 impl Case {

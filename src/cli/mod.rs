@@ -8,6 +8,7 @@ mod compare;
 mod completions;
 mod converge;
 mod explain;
+mod interrupt;
 mod list;
 mod new;
 mod progress;
@@ -31,9 +32,9 @@ use crate::compare::CompareError;
 use crate::model::{Checked, Registry};
 use crate::output::OutputError;
 use crate::result::ErrorReport;
-use crate::runtime::interrupt::STOPPED;
 use crate::study::StudyError;
 use crate::validate::ValidateError;
+use interrupt::STOPPED;
 
 /// Sediment transport from several models of the same flow, with what each one costs and how far it can be trusted.
 #[derive(Debug, Parser)]

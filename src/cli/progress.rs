@@ -4,8 +4,8 @@ use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
+use super::interrupt;
 use crate::result::{Snapshot, Watch};
-use crate::runtime::interrupt;
 use crate::units::readable;
 
 /// Work that takes less than this shows nothing.

@@ -6,12 +6,12 @@ use std::sync::Mutex;
 use clap::Args;
 use serde_json::{Value, json};
 
+use super::interrupt;
 use super::progress::Progress;
 use super::{CaseArgs, CliError, answer, say, word};
 use crate::model::Registry;
 use crate::output::Mode;
 use crate::result::{ErrorReport, Snapshot, Status, Watch};
-use crate::runtime::interrupt;
 use crate::study::converge::Judge;
 use crate::study::{Conducted, Next, Observer, Plan, Settings, conduct};
 

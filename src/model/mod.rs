@@ -10,6 +10,7 @@
 mod offer;
 mod problem;
 mod registry;
+mod simulation;
 mod study;
 
 use std::any::Any;
@@ -22,6 +23,7 @@ use crate::result::{CheckpointError, Context, Failure, Outcome};
 pub use offer::{BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, PACKED, Term, TermTest, TurbulentScene};
 pub use problem::{Checked, Problem};
 pub use registry::{Entry, Registry, checked, read};
+pub use simulation::Simulation;
 pub use study::{ClosedForm, Focus, Law, Meshes, Number, ONE_KIND, Rule, Rung, Sizes, Smoothed, StudyPlan, number};
 
 /// Faults found while values are compared with each other, by path in the case.

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::{Description, Solve, SteadyDrive};
+use super::{Description, ModelInfo, Solve, SteadyDrive};
 use crate::case::checks::Class;
 use crate::case::{Case, Fault};
 use crate::result::{Context, Failure, Outcome, Profile, SolveError, Status, quantity as q};
@@ -34,6 +34,11 @@ pub type Checked = (Case, Problem);
 impl Problem {
     pub(super) fn new(case: &Case, stochastic: bool, solver: Arc<dyn Solve>) -> Self {
         Self { name: case.name.clone(), title: case.about().title.clone(), kind: case.model, stochastic, solver }
+    }
+
+    /// A problem that no case states.
+    pub(super) fn of(name: &str, info: ModelInfo, solver: Arc<dyn Solve>) -> Self {
+        Self { name: name.into(), title: name.into(), kind: info.name, stochastic: info.stochastic, solver }
     }
 
     /// Solves it. A result that is not a finite number is a failure, and so are a balance that does not close and a mean flow

@@ -8,13 +8,16 @@ use super::problem::checks;
 use super::{Checked, Faults, Flow, Model, ModelInfo, Offer, Problem, Solve};
 use crate::case::{Case, CaseError, Fault, Kind, Kinds, Tables};
 
+/// A problem of some model, if its values allow one; or that the tables are none of the model's.
+type Built = Result<Option<Arc<dyn Solve>>, serde_json::Error>;
+
 /// A model without its types.
 #[derive(Clone, Copy, Debug)]
 pub struct Entry {
     /// what it is called
     pub info: ModelInfo,
     kind: fn() -> Kind,
-    build: fn(Value, &mut Faults) -> Result<Option<Arc<dyn Solve>>, serde_json::Error>,
+    build: fn(Value, &mut Faults) -> Built,
     offer: fn(&Flow, f64) -> Option<Offer>,
 }
 
@@ -32,7 +35,7 @@ impl Entry {
     }
 }
 
-fn build<M: Model>(tables: Value, faults: &mut Faults) -> Result<Option<Arc<dyn Solve>>, serde_json::Error> {
+fn build<M: Model>(tables: Value, faults: &mut Faults) -> Built {
     let tables: M::Tables = serde_json::from_value(tables)?;
     Ok(M::build(&tables, faults).map(|model| Arc::new(model) as Arc<dyn Solve>))
 }

@@ -1,6 +1,5 @@
-//! What a run costs and how it is stopped.
+//! What a run costs, the threads that share its work, random numbers.
 
 pub mod cost;
-pub mod interrupt;
 pub mod pool;
 pub mod rng;

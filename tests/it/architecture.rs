@@ -26,6 +26,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("output", &["plot", "result", "units"]),
     ("study", &["case", "closures", "compare", "model", "numerics", "output", "plot", "result", "runtime", "units"]),
     ("advise", &["case", "model", "result", "units"]),
+    ("prelude", &["case", "model", "models", "result"]),
     ("validate", &["advise", "case", "model", "plot", "result", "study", "units"]),
     (
         "cli",

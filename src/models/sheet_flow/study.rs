@@ -16,7 +16,7 @@ fn ladder(sizes: &Sizes) -> Vec<Rung> {
     let exact = exact.map(|cells| Rung::cells("Newton, exact yield", cells, &sizes.exactly()));
     let smoothed = |series: &'static str, method: &str, meshes: &[usize]| -> Vec<Rung> {
         let all = regularised(sizes, 1, &LAMBDAS[..3], meshes).into_iter();
-        let method = vec![format!("model.method={method}")];
+        let method = [format!("model.method={method}")];
         all.map(|rung| Rung { series, changes: [&method[..], &rung.changes].concat(), ..rung }).collect()
     };
     let newton = smoothed("Newton, regularised", "newton", &[75, 300]);
