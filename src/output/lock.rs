@@ -229,6 +229,23 @@ mod tests {
         assert!(!target.with_file_name(".out.lock").exists());
     }
 
+    #[cfg(unix)]
+    #[test]
+    fn a_file_that_was_removed_locks_nothing() {
+        let scratch = tempfile::tempdir().unwrap();
+        let (target, lock) = (scratch.path().join("out"), scratch.path().join(".out.lock"));
+        let site = Site::take(&target).unwrap();
+        let early = File::open(&lock).unwrap();
+        assert!(matches!(FileExt::try_lock(&early), Err(TryLockError::WouldBlock)));
+        assert!(is_there(&early, &lock));
+        drop(site);
+        // Now it can be locked, and means nothing, whether there is a new one or not.
+        FileExt::try_lock(&early).unwrap();
+        assert!(!is_there(&early, &lock));
+        let _site = Site::take(&target).unwrap();
+        assert!(!is_there(&early, &lock));
+    }
+
     #[test]
     fn a_file_of_the_name_of_a_lock_is_not_touched() {
         let scratch = tempfile::tempdir().unwrap();

@@ -53,12 +53,19 @@ fn a_run_keeps_its_checkpoint() {
     let scratch = Scratch::new();
     scratch.bedload(case(&["--out", "whole", "--checkpoint", "0.01"])).exits(0);
     let (whole, size) = (said(&scratch, "whole"), largest(&scratch, "whole"));
-    broken(&scratch, size);
-    // The disk is still full.
-    let resume = case(&["--out", "out", "--resume"]);
-    let answer = limited(&scratch, 1, &grains(&["--out", "out", "--resume"])).exits(1);
-    assert!(answer.err.contains("--resume") || answer.err.contains("was touched"), "{}", answer.err);
-    assert_eq!(scratch.names("."), ["out", "whole"]);
+    let limit = broken(&scratch, size);
+    // The disk is still full: from the start, or after the run has gone on for a while.
+    let resume = case(&["--out", "out", "--resume", "--checkpoint", "0.01"]);
+    let again = |limit| {
+        let words = grains(&["--out", "out", "--resume", "--checkpoint", "0.01"]);
+        let error = limited(&scratch, limit, &words).exits(1).err;
+        assert_eq!(scratch.names("."), ["out", "whole"]);
+        error
+    };
+    let error = again(1);
+    assert!(error.contains("nothing that stood there before was touched"), "{error}");
+    let error = again(limit);
+    assert!(error.contains("; out keeps the last checkpoint\n  free some space and go on with --resume"), "{error}");
     scratch.bedload(&resume).exits(0);
     assert!(said(&scratch, "out") == whole, "the run that went on differs");
 }
@@ -136,7 +143,9 @@ fn a_disk_that_fills_keeps_the_points_that_fit() {
         return;
     }
     let sweep = "sweep exact_1d_ouriemi --over 'flow.pressure_gradient=800:1400:16 Pa/m' --threads 1 --out s";
-    for full in ["size=1m", "size=50m,nr_inodes=40"] {
+    // A point takes five files: each of them is the one that does not fit in one of these.
+    let files = (40..45).map(|files| format!("size=50m,nr_inodes={files}"));
+    for full in files.chain(["size=1m".to_owned()]) {
         // The disk is only there for the shell inside; what it says comes out in two parts.
         let inside = format!(
             "mount -t tmpfs -o {full} none disk; cd disk; \"$BEDLOAD\" {sweep}; echo code $?; \
