@@ -16,7 +16,7 @@ use crate::model::{Problem, Registry};
 use crate::output::{
     CHECKPOINT, Folder, Mode, OutputError, Written, default_folder, write_failure, write_outcome, write_running,
 };
-use crate::result::{Checkpoints, Context, Cost, Frames, Reported, Status, Summary, quantity};
+use crate::result::{Balance, Checkpoints, Context, Cost, Frames, Reported, Status, Summary, quantity};
 use crate::runtime::cost::peak_memory_mb;
 use crate::units::{readable, readable_error, significant};
 
@@ -260,8 +260,16 @@ fn trust(summary: &Summary) -> String {
         (None, None) if summary.regularisation.contains_key("granular_temperature_m2_s2") => {
             "order 2 in its cells".into()
         }
-        (None, None) => "closed form, exact to round-off".into(),
+        // A solver without a word of its error may be anything; a closed form shows itself in its balances.
+        (None, None) if at_round_off(&summary.balances) => "closed form, exact to round-off".into(),
+        (None, None) => "error unknown".into(),
     }
+}
+
+/// Whether there are balances, and all of them close to round-off.
+fn at_round_off(balances: &[Balance]) -> bool {
+    const ROUND_OFF: f64 = 1e-9;
+    !balances.is_empty() && balances.iter().all(|balance| balance.relative.abs() <= ROUND_OFF)
 }
 
 /// Numbers of the closing lines, a line each, named by the first.

@@ -285,7 +285,7 @@ impl SolveError {
             }
             Self::Grains { hint, .. } | Self::FlowsUphill { hint, .. } => (*hint).into(),
             Self::NoRoot { .. } | Self::NotConverged { .. } | Self::Inconsistent { .. } => {
-                "this should not happen for a checked case: please report it with case.toml".into()
+                "the solver gave up on a case that was checked: please report it with case.toml".into()
             }
         }
     }
