@@ -3,9 +3,12 @@
 //!
 //! `x-unit` is the SI unit of a quantity; a string with any unit of that dimension is accepted in its place.
 
+use std::f64::consts::FRAC_PI_2;
+
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
+use super::fault::Fault;
 use crate::closures::dilatancy::Dilatancy;
 use crate::closures::drag::Drag;
 use crate::closures::friction::Friction;
@@ -141,6 +144,22 @@ pub enum SlopeDefinition {
     Sine,
     /// The angle with the horizontal itself, in radians, or as "24 deg".
     Angle,
+}
+
+impl SlopeDefinition {
+    /// Angle with the horizontal \[rad\] of a slope given as `slope`.
+    ///
+    /// # Errors
+    /// [`Fault::TooSteep`] for the vertical and beyond.
+    pub fn angle(self, slope: f64) -> Result<f64, Fault> {
+        let (definition, beta) = match self {
+            Self::Tangent => ("tangent", slope.atan()),
+            Self::Sine => ("sine", slope.asin()),
+            Self::Angle => ("angle", slope),
+        };
+        // The arc sine of more than 1 is not a number, which is not less than pi/2 either.
+        if beta < FRAC_PI_2 { Ok(beta) } else { Err(Fault::TooSteep { definition, value: slope }) }
+    }
 }
 
 /// A turbulent flow over a wall, driven by the stress at the wall.

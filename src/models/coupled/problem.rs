@@ -1,11 +1,8 @@
 //! Problems of grains in a fluid.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::case::{CoupledDiscrete, CoupledTables, FluidScheme};
 use super::{advice, equations, run, study};
 use crate::case::Fault;
-use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::{Contact, linear_spring};
 use crate::closures::drag::{DallavalleGrain, GrainDrag, dallavalle_grain};
 use crate::closures::fluctuation::Fluctuation;
@@ -87,16 +84,8 @@ impl Model for Coupled {
 
     fn build(tables: &CoupledTables, faults: &mut Faults) -> Option<Self> {
         let CoupledTables { fluid, grains, bed, flow, closures, discrete, .. } = tables;
-        let (definition, beta) = match flow.slope_definition {
-            SlopeDefinition::Tangent => ("tangent", flow.slope.atan()),
-            SlopeDefinition::Sine => ("sine", flow.slope.asin()),
-            SlopeDefinition::Angle => ("angle", flow.slope),
-        };
-        // The arc sine of more than 1 is not a number: not (beta < pi/2) catches it.
-        let upright = beta < FRAC_PI_2;
-        if !upright {
-            faults.push(("flow.slope", Fault::TooSteep { definition, value: flow.slope }));
-        }
+        let slope = flow.slope_definition.angle(flow.slope);
+        let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let d = grains.diameter;
         if grains.density <= fluid.density {
             faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
@@ -144,7 +133,7 @@ impl Model for Coupled {
                 size: [flow.length, flow.width],
                 side_walls: flow.side_walls,
                 smooth_walls: false,
-                beta,
+                beta: beta?,
                 g: flow.gravity,
                 contact,
                 discrete: discrete.grains(),

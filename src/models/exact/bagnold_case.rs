@@ -1,10 +1,8 @@
 //! The case of the granular film.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::bagnold::{equations, run};
 use crate::case::Fault;
-use crate::case::tables::{BagnoldModel, Film, FilmClosures, FilmFlow, Grains, Grid, SlopeDefinition};
+use crate::case::tables::{BagnoldModel, Film, FilmClosures, FilmFlow, Grains, Grid};
 use crate::closures::friction::{self, Friction, MuI};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::result::Context;
@@ -55,16 +53,8 @@ impl Model for OnMesh<GranularFilm> {
 
     fn build(tables: &BagnoldFilmTables, faults: &mut Faults) -> Option<Self> {
         let BagnoldFilmTables { grains, bed, flow, closures, grid, .. } = tables;
-        let (definition, beta) = match flow.slope_definition {
-            SlopeDefinition::Tangent => ("tangent", flow.slope.atan()),
-            SlopeDefinition::Sine => ("sine", flow.slope.asin()),
-            SlopeDefinition::Angle => ("angle", flow.slope),
-        };
-        // The arc sine of more than 1 is not a number: not (beta < pi/2) catches it.
-        let upright = beta < FRAC_PI_2;
-        if !upright {
-            faults.push(("flow.slope", Fault::TooSteep { definition, value: flow.slope }));
-        }
+        let slope = flow.slope_definition.angle(flow.slope);
+        let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let friction = match closures.friction {
             Friction::MuI(law) => law,
             other => {
@@ -83,7 +73,7 @@ impl Model for OnMesh<GranularFilm> {
             d: grains.diameter,
             phi: bed.phi,
             h: flow.height,
-            beta,
+            beta: beta?,
             g: flow.gravity,
             friction,
         };

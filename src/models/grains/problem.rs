@@ -1,11 +1,8 @@
 //! Problems of single grains.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::case::{GrainsBedTables, ImpactTables, Target, Trial as Which, TrialTables};
 use super::{bed, impact, trials};
 use crate::case::Fault;
-use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::{Contact, LinearSpring, linear_spring};
 use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
@@ -62,16 +59,8 @@ impl Model for GrainBed {
 
     fn build(tables: &GrainsBedTables, faults: &mut Faults) -> Option<Self> {
         let GrainsBedTables { grains, bed, flow, closures, discrete, .. } = tables;
-        let (definition, beta) = match flow.slope_definition {
-            SlopeDefinition::Tangent => ("tangent", flow.slope.atan()),
-            SlopeDefinition::Sine => ("sine", flow.slope.asin()),
-            SlopeDefinition::Angle => ("angle", flow.slope),
-        };
-        // The arc sine of more than 1 is not a number: not (beta < pi/2) catches it.
-        let upright = beta < FRAC_PI_2;
-        if !upright {
-            faults.push(("flow.slope", Fault::TooSteep { definition, value: flow.slope }));
-        }
+        let slope = flow.slope_definition.angle(flow.slope);
+        let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let d = grains.diameter;
         let count = bed.layers * (flow.length / d) * (flow.width / d);
         let wide = |name: &'static str, length: f64, least: f64, faults: &mut Faults| {
@@ -95,7 +84,7 @@ impl Model for GrainBed {
             size: [flow.length, flow.width],
             side_walls: flow.side_walls,
             smooth_walls: flow.smooth_walls,
-            beta,
+            beta: beta?,
             g: flow.gravity,
             contact,
             discrete: *discrete,

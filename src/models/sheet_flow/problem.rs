@@ -1,7 +1,5 @@
 //! A turbulent flow over a bed that shears: the two-layer sheet flow.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::case::{BedReading, SheetFlowTables, SheetMethod, SheetSmoothing};
 use super::{equations, run, study};
 use crate::case::Fault;
@@ -328,17 +326,8 @@ impl Solve for OnMesh<SheetFlow> {
 
 /// Sine of a slope below the vertical.
 fn slope_sine(slope: f64, definition: SlopeDefinition, faults: &mut Faults) -> Option<f64> {
-    let (name, angle) = match definition {
-        SlopeDefinition::Tangent => ("tangent", slope.atan()),
-        SlopeDefinition::Sine => ("sine", slope.asin()),
-        SlopeDefinition::Angle => ("angle", slope),
-    };
-    // The arc sine of more than 1 is not a number.
-    if angle < FRAC_PI_2 {
-        return Some(if definition == SlopeDefinition::Sine { slope } else { angle.sin() });
-    }
-    faults.push(("flow.slope", Fault::TooSteep { definition: name, value: slope }));
-    None
+    let angle = definition.angle(slope).map_err(|fault| faults.push(("flow.slope", fault))).ok()?;
+    Some(if definition == SlopeDefinition::Sine { slope } else { angle.sin() })
 }
 
 fn laws(flow: &SheetFlow) -> Vec<&'static Info> {

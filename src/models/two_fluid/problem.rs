@@ -1,11 +1,8 @@
 //! Problems of grains and fluid as two fluids.
 
-use std::f64::consts::FRAC_PI_2;
-
 use super::case::{FluidStress, State, TwoFluidTables};
 use super::{equations, run, study};
 use crate::case::Fault;
-use crate::case::tables::SlopeDefinition;
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::{DallavalleGrain, GrainDrag};
 use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
@@ -102,16 +99,8 @@ impl Model for OnMesh<TwoFluid> {
 
     fn build(tables: &TwoFluidTables, faults: &mut Faults) -> Option<Self> {
         let TwoFluidTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
-        let (definition, beta) = match flow.slope_definition {
-            SlopeDefinition::Tangent => ("tangent", flow.slope.atan()),
-            SlopeDefinition::Sine => ("sine", flow.slope.asin()),
-            SlopeDefinition::Angle => ("angle", flow.slope),
-        };
-        // The arc sine of more than 1 is not a number: not (beta < pi/2) catches it.
-        let upright = beta < FRAC_PI_2;
-        if !upright {
-            faults.push(("flow.slope", Fault::TooSteep { definition, value: flow.slope }));
-        }
+        let slope = flow.slope_definition.angle(flow.slope);
+        let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
         if grains.density <= fluid.density {
             faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
         }
@@ -143,7 +132,7 @@ impl Model for OnMesh<TwoFluid> {
         let depth = match (flow.depth, flow.shields) {
             (Some(depth), None) => Some(depth),
             (None, Some(shields)) if flow.slope > 0.0 => {
-                Some(shields * (grains.density / fluid.density - 1.0) * grains.diameter / beta.sin())
+                beta.map(|beta| shields * (grains.density / fluid.density - 1.0) * grains.diameter / beta.sin())
             }
             (None, Some(_)) => {
                 let allowed = "more than 0 where a Shields number is wanted".to_owned();
@@ -173,7 +162,7 @@ impl Model for OnMesh<TwoFluid> {
             phi: bed.phi,
             phi_max: bed.phi_max,
             depth: depth?,
-            beta,
+            beta: beta?,
             g: flow.gravity,
             state: tables.model.state,
             fluid_stress: tables.model.fluid_stress,
