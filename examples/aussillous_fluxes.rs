@@ -8,8 +8,9 @@ use std::error::Error;
 use std::path::Path;
 
 use bedload::models;
-use bedload::plot::{Axis, Curve, Dash, Figure, Marker, Panel, png};
+use bedload::plot::png;
 use bedload::result::Context;
+use bedload::result::{Axis, Curve, Dash, Figure, Marker, Panel};
 
 /// Thickness of the bed in diameters: more than moves in any run.
 const BED: f64 = 20.0;

@@ -9,7 +9,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use bedload::plot::{Axis, Curve, Dash, Figure, Marker, Panel, png};
+use bedload::plot::png;
+use bedload::result::{Axis, Curve, Dash, Figure, Marker, Panel};
 
 /// Name, legend, and changes of `coupled_2d_expRUN_quick`.
 const OPTIONS: [(&str, &str, &[&str]); 7] = [

@@ -9,19 +9,23 @@ use std::error::Error;
 use std::path::Path;
 
 use bedload::models;
-use bedload::plot::{Axis, Curve, Dash, Figure, Level, Map, MapPanel, Marker, Panel, map_png, png, section_map};
+use bedload::plot::{Map, MapPanel, map_png, png, section_map};
 use bedload::result::Context;
+use bedload::result::{Axis, Curve, Dash, Field, Figure, Level, Marker, Panel};
 use bedload::result::{Outcome, Profile, Quantity, quantity as q};
 
 type Fallible<T> = Result<T, Box<dyn Error>>;
 
-/// Runs a shipped case with changes; its outcome and its table.
-fn run(case: &str, settings: &[&str]) -> Fallible<(Outcome, Vec<u8>)> {
+/// Runs a shipped case with changes.
+fn run(case: &str, settings: &[&str]) -> Fallible<Outcome> {
     let settings: Vec<String> = settings.iter().map(|&s| s.to_owned()).collect();
     let (_, problem) = models::builtin().load(case, &settings).map_err(|e| e.render(false))?;
-    let outcome = Context::quiet(|context| problem.run(context)).map_err(|failure| failure.error.to_string())?;
-    let table = outcome.field.as_ref().map(|field| field.csv().into_bytes()).unwrap_or_default();
-    Ok((outcome, table))
+    Ok(Context::quiet(|context| problem.run(context)).map_err(|failure| failure.error.to_string())?)
+}
+
+/// Its field over the section.
+fn field(case: &str, settings: &[&str]) -> Fallible<Field> {
+    Ok(run(case, settings)?.field.ok_or("no field")?)
 }
 
 fn column(profile: &Profile, quantity: &'static Quantity) -> Vec<Option<f64>> {
@@ -42,21 +46,20 @@ fn draw(stem: &str, caption: &str, y: Axis, panels: Vec<Panel>, levels: Vec<Leve
     Ok(png(&figure, &Path::new("docs/figures").join(format!("{stem}.png")))?)
 }
 
-fn cavity(bn: f64) -> Fallible<Vec<u8>> {
+fn cavity(bn: f64) -> Fallible<Field> {
     let case = if bn > 0.0 { "section_2d_cavity_bn2" } else { "section_2d_cavity_bn0" };
     let finest = if bn > 0.0 { 0.3 } else { 1.0 };
     let mut settings = vec!["grid.cells=96".to_owned(), format!("grid.finest={finest}")];
     if bn > 0.0 {
         settings.push(format!("fluid.yield_stress={bn}"));
     }
-    Ok(run(case, &settings.iter().map(String::as_str).collect::<Vec<_>>())?.1)
+    field(case, &settings.iter().map(String::as_str).collect::<Vec<_>>())
 }
 
 /// Figures 5 and 6: the cavity at rising Bingham number, velocities and what does not yield.
 fn figures_5_and_6() -> Fallible<()> {
     let panel = |bn: f64, arrows: bool| -> Fallible<MapPanel> {
-        let mut panel =
-            section_map(cavity(bn)?.as_slice(), false, None, (&format!("Bn = {bn}"), 1.0)).ok_or("no map")?;
+        let mut panel = section_map(&cavity(bn)?, false, None, (&format!("Bn = {bn}"), 1.0)).ok_or("no map")?;
         if !arrows {
             panel.arrows.clear();
         }
@@ -82,9 +85,10 @@ const TWO_FLUID: [&str; 2] = ["model.form=two-fluid", "closures.drag.law=carman-
 fn figures_10_and_13() -> Fallible<()> {
     let mut panels = Vec::new();
     for (case, name) in BEDS {
-        let (outcome, table) = run(case, &[])?;
+        let outcome = run(case, &[])?;
         let bed = outcome.results.get(q::BED_LEVEL.name);
-        panels.push(section_map(table.as_slice(), true, bed, (name, 1e-3)).ok_or("no map")?);
+        let field = outcome.field.ok_or("no field")?;
+        panels.push(section_map(&field, true, bed, (name, 1e-3)).ok_or("no map")?);
     }
     map_png(
         &Map { panels, colours: Axis::linear("velocity of the mixture", "mm/s") },
@@ -92,8 +96,7 @@ fn figures_10_and_13() -> Fallible<()> {
     )?;
     let mut panels = Vec::new();
     for (case, name) in [("section_2d_square", "square"), ("section_2d_circle", "circle")] {
-        let table = run(case, &[])?.1;
-        panels.push(section_map(table.as_slice(), true, None, (name, 1.0)).ok_or("no map")?);
+        panels.push(section_map(&field(case, &[])?, true, None, (name, 1.0)).ok_or("no map")?);
     }
     let colours = Axis::linear("velocity, Bingham fluid, yield stress 0.1 of -dp/dx H", "m/s");
     Ok(map_png(&Map { panels, colours }, Path::new("docs/figures/section_bingham.png"))?)
@@ -108,12 +111,12 @@ fn figures_11_and_14() -> Fallible<()> {
             let mut curves = Vec::new();
             for (cells, colour, marker) in [(40, 1, Marker::Circle), (80, 2, Marker::Triangle)] {
                 let mesh = format!("grid.cells={cells}");
-                let profile = run(case, &[&law[..], &[mesh.as_str()]].concat())?.0.profile.ok_or("no profile")?;
+                let profile = run(case, &[&law[..], &[mesh.as_str()]].concat())?.profile.ok_or("no profile")?;
                 let every = if zoom { 1 } else { 4 };
                 let points = pairs(&profile, &q::U_MIXTURE, zoom).into_iter().step_by(every).collect();
                 curves.push(curve(&format!("{cells} rows, λ = 1e-6"), colour, (None, Some(marker)), points));
             }
-            let profile = run(case, &["grid.cells=96"])?.0.profile.ok_or("no profile")?;
+            let profile = run(case, &["grid.cells=96"])?.profile.ok_or("no profile")?;
             curves.push(curve("exact yield", 0, SOLID, pairs(&profile, &q::U_MIXTURE, zoom)));
             if !zoom {
                 curves.push(curve("between planes", 3, DASHED, pairs(&profile, &q::U_PLANES, zoom)));
@@ -143,7 +146,7 @@ fn pairs(profile: &Profile, quantity: &'static Quantity, zoom: bool) -> Vec<(f64
 fn figures_12_and_15() -> Fallible<()> {
     let mut panels = Vec::new();
     for (case, name) in BEDS {
-        let profile = run(case, &[&TWO_FLUID[..], &["grid.cells=64"]].concat())?.0.profile.ok_or("no profile")?;
+        let profile = run(case, &[&TWO_FLUID[..], &["grid.cells=64"]].concat())?.profile.ok_or("no profile")?;
         let curves = vec![
             curve("fluid", 1, SOLID, pairs(&profile, &q::U_FLUID, false)),
             curve("grains", 2, DASHED, pairs(&profile, &q::U_PARTICLE, false)),

@@ -9,7 +9,7 @@ use bedload::models::exact::ouriemi;
 use bedload::models::section::duct::{Duct, Filling};
 use bedload::models::section::solve::Solution;
 use bedload::models::section::{Method, Outline, SectionMethod};
-use bedload::plot::{Axis, Dash, Level, Marker, Panel};
+use bedload::result::{Axis, Dash, Level, Marker, Panel};
 
 use super::{DASHED, Fallible, SOLID, curve, draw};
 

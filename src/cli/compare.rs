@@ -12,7 +12,7 @@ use crate::case::Case;
 use crate::compare::{Align, CompareError, Comparison, NormRow, Request, Subject, compare, data, percent};
 use crate::model::Problem;
 use crate::model::Registry;
-use crate::output::{prepare_comparison, read_run, write_comparison};
+use crate::output::{Compared, prepare_comparison, read_run, write_comparison};
 use crate::result::Context;
 use crate::result::{Cost, ErrorReport, Provenance, Status, quantity};
 use crate::runtime::cost::peak_memory_mb;
@@ -82,7 +82,7 @@ impl Verb for Compare {
         let (loaded, names) = self.load(registry)?;
         let mut progress = Progress::new(self.quiet);
         let out = self.out.clone().unwrap_or_else(|| Comparison::folder(&names, request.align, request.scale));
-        let folder = prepare_comparison(&out, &request, self.force)?;
+        let folder = prepare_comparison(&out, &json!(request), self.force)?;
         let provenance = Provenance { source: self.command(""), ..Provenance::of_this_program() };
         let mut subjects = Vec::with_capacity(given);
         for one in loaded {
@@ -100,9 +100,16 @@ impl Verb for Compare {
             work_units: comparison.subjects.iter().map(|s| s.profile.rows() as f64).sum(),
             ..Cost::default()
         };
-        let figures = write_comparison(folder, &comparison, &request, &cost, &provenance, self.png)?;
+        let figures = comparison.figures();
+        let compared = Compared {
+            record: &comparison.to_json(&request, &cost, &provenance),
+            norms: &|to| comparison.write_norms(to, &provenance),
+            page: &comparison.html(&figures, &cost, &provenance),
+            figures: &figures,
+        };
+        let figures = write_comparison(folder, &compared, self.png)?;
         if self.json {
-            let mut value = comparison.to_json(&request, &cost, &provenance);
+            let mut value = compared.record.clone();
             if let Value::Object(object) = &mut value {
                 object.insert("out".into(), out.display().to_string().into());
             }

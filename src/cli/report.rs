@@ -28,8 +28,8 @@ impl Verb for Report {
         self.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
-        let written = redraw(registry, &self.run, self.png)?;
+    fn execute(self, _: &Registry) -> Result<(), CliError> {
+        let written = redraw(&self.run, self.png)?;
         let files: Vec<String> = std::iter::once(self.run.join("report.html"))
             .chain(written.figures)
             .map(|path| path.display().to_string())

@@ -92,7 +92,8 @@ impl Run {
         begun: Begun,
     ) -> Result<Written, OutputError> {
         let Begun { start, mut progress, checkpoint } = begun;
-        let summary = write_running(folder, case, problem, usize::from(self.threads))?;
+        let head = problem.head(case, usize::from(self.threads));
+        let summary = write_running(folder, &head)?;
         let solving = Instant::now();
         let going_on = checkpoint.is_some();
         if going_on {
@@ -104,21 +105,23 @@ impl Run {
         let mut keeper = Keeper { folder, checkpoint, going_on, between, last, broken: &broken };
         let mut camera = Camera { folder, going_on, broken: &broken };
         let context = Context::new(&mut progress).threads(usize::from(self.threads));
-        let result = problem.run(&mut context.checkpoints(&mut keeper).frames(&mut camera));
+        let result = problem.solve(&mut context.checkpoints(&mut keeper).frames(&mut camera));
+        let solve_s = solving.elapsed().as_secs_f64();
+        let result = problem.complete(result);
         drop(progress);
         if let Some(error) = broken.into_inner() {
             return Err(error);
         }
         let cost = Cost {
-            solve_s: solving.elapsed().as_secs_f64(),
+            solve_s,
             total_s: start.elapsed().as_secs_f64(),
             peak_memory_mb: peak_memory_mb(),
             work_units: problem.cells() as f64,
             ..Cost::default()
         };
         match &result {
-            Ok(outcome) => write_outcome(folder, summary, problem, outcome, cost, self.png),
-            Err(failure) => write_failure(folder, summary, problem, failure, cost, self.png),
+            Ok(outcome) => write_outcome(folder, summary, &head, outcome, cost, self.png),
+            Err(failure) => write_failure(folder, summary, &head, failure, cost, self.png),
         }
     }
 

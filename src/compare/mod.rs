@@ -24,7 +24,8 @@ pub use numbers::NumberRow;
 pub use page::{origin, percent};
 pub use record::Request;
 
-use crate::plot::{Figure, Trace, shared_figures};
+use crate::plot::{Trace, shared_figures};
+use crate::result::Figure;
 use crate::result::quantity::{self, COLUMNS, Quantity};
 use crate::result::{Outcome, Profile, Results, Status, Summary, TableError, Validity};
 

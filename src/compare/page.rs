@@ -1,7 +1,8 @@
 //! The page of a comparison: numbers first, then what to bear in mind, the figures and the origin.
 
 use super::{Comparison, Deviation, Kind, NormRow};
-use crate::plot::{Cell, Document, Figure, Section, document_html};
+use crate::plot::{Cell, Document, Section, document_html};
+use crate::result::Figure;
 use crate::result::quantity::{self, Quantity};
 use crate::result::{Cost, Provenance};
 use crate::units::{readable, significant};

@@ -96,11 +96,15 @@ impl Comparison {
         self.subjects.get(index).map(|s| s.name.as_str())
     }
 
-    /// `norms.csv`: one row per column and subject, under `# ` lines with `comments`. An undefined value is an empty field.
+    /// `norms.csv`: one row per column and subject, under `# ` lines with its origin. An undefined value is an empty field.
     ///
     /// # Errors
     /// Whatever the writer returns.
-    pub fn write_norms(&self, mut to: impl Write, comments: &[String]) -> io::Result<()> {
+    pub fn write_norms(&self, mut to: impl Write, provenance: &Provenance) -> io::Result<()> {
+        let reference = self.subjects.first().map_or("", |s| s.name.as_str());
+        let mut comments: Vec<String> = provenance.lines().into_iter().take(1).collect();
+        comments.extend([provenance.source.clone(), format!("reference {reference}; {}", self.align.datum())]);
+        comments.push(format!("started {}", provenance.started_utc));
         for comment in comments {
             writeln!(to, "# {}", comment.replace(['\n', '\r'], " "))?;
         }

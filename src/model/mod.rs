@@ -18,7 +18,7 @@ use std::fmt::Debug;
 
 use crate::case::{Fault, Tables};
 use crate::closures::Info;
-use crate::result::{CheckpointError, Context, Failure, Outcome};
+use crate::result::{CheckpointError, Context, Failure, Figure, Outcome};
 
 pub use offer::{BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, PACKED, Term, TermTest, TurbulentScene};
 pub use problem::{Checked, Problem};
@@ -102,6 +102,11 @@ pub trait Solve: Any + Debug + Send + Sync {
 
     /// What in the model that flow may not need.
     fn terms(&self) -> Vec<Term> {
+        Vec::new()
+    }
+
+    /// Figures that only this model has, of a run called `name`, from what it found.
+    fn figures(&self, _name: &str, _outcome: &Outcome) -> Vec<Figure> {
         Vec::new()
     }
 

@@ -6,7 +6,10 @@ use std::sync::Arc;
 use super::{Description, ModelInfo, Solve, SteadyDrive};
 use crate::case::checks::Class;
 use crate::case::{Case, Fault};
-use crate::result::{Context, Failure, Outcome, Profile, SolveError, Status, quantity as q};
+use crate::closures::{Info, Range};
+use crate::result::{
+    Context, Failure, Figure, Head, Outcome, Profile, SolveError, StatedLaw, Statement, Status, quantity as q,
+};
 
 /// Relative residual of a balance from which on a result has lost its digits: it is round-off otherwise.
 const LARGEST_IMBALANCE: f64 = 1e-3;
@@ -41,16 +44,76 @@ impl Problem {
         Self { name: name.into(), title: name.into(), kind: info.name, stochastic: info.stochastic, solver }
     }
 
+    /// Solves it and completes the outcome.
+    ///
+    /// # Errors
+    /// As [`Problem::solve`].
+    pub fn run(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+        self.complete(self.solve(context))
+    }
+
     /// Solves it. A result that is not a finite number is a failure, and so are a balance that does not close and a mean flow
     /// against a steady drive.
     ///
     /// # Errors
     /// [`Failure`]: why the method failed, with the numbers that say so and the last good state.
-    pub fn run(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+    pub fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
         let outcome = self.solver.solve(context)?.trusted(LARGEST_IMBALANCE)?;
         match self.solver.drive().and_then(|drive| uphill(&drive, &outcome)) {
             None => Ok(outcome),
             Some(error) => Err(Failure { error, last: Some(Box::new(outcome)) }),
+        }
+    }
+
+    /// What was solved with what needs no solving: equations, laws, the figures of the model, the work.
+    ///
+    /// # Errors
+    /// The failure that it is given, with its last state completed.
+    pub fn complete(&self, solved: Result<Outcome, Failure>) -> Result<Outcome, Failure> {
+        let complete = |outcome: &mut Outcome| {
+            outcome.statement = self.statement();
+            outcome.work = self.cells() as f64 * outcome.steps();
+            let figures = self.solver.figures(&self.name, outcome);
+            outcome.figures.extend(figures.into_iter().map(Figure::finite));
+        };
+        match solved {
+            Ok(mut outcome) => {
+                complete(&mut outcome);
+                Ok(outcome)
+            }
+            Err(mut failure) => {
+                failure.last.iter_mut().for_each(|last| complete(last));
+                Err(failure)
+            }
+        }
+    }
+
+    /// Its equations, and its laws as readers meet them.
+    #[must_use]
+    pub fn statement(&self) -> Statement {
+        let Description { equations, laws, .. } = self.describe();
+        let law = |info: &&Info| StatedLaw {
+            family: info.family.into(),
+            law: info.law.into(),
+            equation: info.equation.into(),
+            source: info.source.into(),
+            ranges: info.ranges.iter().map(Range::to_string).collect(),
+        };
+        Statement { equations, laws: laws.iter().map(law).collect() }
+    }
+
+    /// What is known of a run of `case`, which states this problem, on `threads` threads.
+    #[must_use]
+    pub fn head(&self, case: &Case, threads: usize) -> Head {
+        Head {
+            case: self.name.clone(),
+            title: self.title.clone(),
+            model: self.model_name(),
+            source: case.source.clone(),
+            overrides: case.overrides.clone(),
+            resolved: case.resolved(),
+            threads,
+            statement: self.statement(),
         }
     }
 

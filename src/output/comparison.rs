@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
+use serde_json::Value;
 
 use super::error::OutputError;
 use super::folder::{Folder, Stands};
@@ -12,8 +13,7 @@ use super::ours::{Kind, holds_only};
 use super::path::resolve;
 use super::run::{draw_png, read_summary};
 use super::study;
-use crate::compare::{Comparison, Request};
-use crate::result::{Cost, Provenance, Status};
+use crate::result::{Figure, Status};
 
 /// Files that the folder of a comparison may hold.
 pub(super) const FILES: &[&str] = &[RECORD, "norms.csv", "report.html"];
@@ -23,7 +23,7 @@ const RECORD: &str = "compare.json";
 /// What tells one comparison from another.
 #[derive(Deserialize)]
 struct Record {
-    request: Request,
+    request: Value,
 }
 
 fn read(folder: &Path) -> Option<Record> {
@@ -40,7 +40,7 @@ pub(super) fn stands_in(folder: &Path) -> bool {
 ///
 /// # Errors
 /// [`OutputError`] if the folder holds anything that must not be replaced, or cannot be written.
-pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Result<Folder, OutputError> {
+pub fn prepare_comparison(target: &Path, request: &Value, force: bool) -> Result<Folder, OutputError> {
     Folder::claim(&resolve(target)?, Kind::Comparison, |folder| {
         let Some(record) = read(folder) else {
             // A run or a study is ours as well, but no comparison takes its place.
@@ -52,46 +52,39 @@ pub fn prepare_comparison(target: &Path, request: &Request, force: bool) -> Resu
         if force || same {
             return Ok(Stands { status: Status::Done, same, goes_on: false });
         }
-        let Request { subjects, data, .. } = record.request;
-        Err(OutputError::OtherComparison { folder: folder.into(), of: [subjects, data].concat().join(", ") })
+        let named = |list: &str| record.request.get(list).and_then(Value::as_array).cloned().unwrap_or_default();
+        let of: Vec<Value> = [named("subjects"), named("data")].concat();
+        let of: Vec<&str> = of.iter().filter_map(Value::as_str).collect();
+        Err(OutputError::OtherComparison { folder: folder.into(), of: of.join(", ") })
     })
+}
+
+/// What a comparison has to say.
+pub struct Compared<'a> {
+    /// its record, with the request
+    pub record: &'a Value,
+    /// writes the table of norms
+    pub norms: &'a dyn Fn(&mut dyn Write) -> io::Result<()>,
+    /// its page
+    pub page: &'a str,
+    /// its figures
+    pub figures: &'a [Figure],
 }
 
 /// Writes a comparison; returns the figures that were drawn as PNG.
 ///
 /// # Errors
 /// [`OutputError::Interrupted`] with the file that cannot be written.
-pub fn write_comparison(
-    mut folder: Folder,
-    comparison: &Comparison,
-    request: &Request,
-    cost: &Cost,
-    provenance: &Provenance,
-    png: bool,
-) -> Result<Vec<PathBuf>, OutputError> {
-    let written = fill(&folder, comparison, request, cost, provenance, png);
+pub fn write_comparison(mut folder: Folder, compared: &Compared<'_>, png: bool) -> Result<Vec<PathBuf>, OutputError> {
+    let written = fill(&folder, compared, png);
     let written = written.and_then(|drawn| folder.finish().map(|()| drawn));
     written.map_err(|error| folder.failed(error))
 }
 
-fn fill(
-    folder: &Folder,
-    comparison: &Comparison,
-    request: &Request,
-    cost: &Cost,
-    provenance: &Provenance,
-    png: bool,
-) -> Result<Vec<PathBuf>, OutputError> {
-    let record = comparison.to_json(request, cost, provenance);
+fn fill(folder: &Folder, compared: &Compared<'_>, png: bool) -> Result<Vec<PathBuf>, OutputError> {
     // First, so that the folder is known as ours whatever happens next.
-    folder.write(RECORD, |to| writeln!(to, "{record:#}"))?;
-    let reference = comparison.subjects.first().map_or("", |s| s.name.as_str());
-    let mut comments: Vec<String> = provenance.lines().into_iter().take(1).collect();
-    comments.extend([provenance.source.clone(), format!("reference {reference}; {}", comparison.align.datum())]);
-    comments.push(format!("started {}", provenance.started_utc));
-    folder.write("norms.csv", |to| comparison.write_norms(to, &comments))?;
-    let figures = comparison.figures();
-    let page = comparison.html(&figures, cost, provenance);
-    folder.write("report.html", |to: &mut dyn Write| -> io::Result<()> { to.write_all(page.as_bytes()) })?;
-    if png { draw_png(&folder.place, folder.path(), &figures) } else { Ok(Vec::new()) }
+    folder.write(RECORD, |to| writeln!(to, "{:#}", compared.record))?;
+    folder.write("norms.csv", |to| (compared.norms)(to))?;
+    folder.write("report.html", |to: &mut dyn Write| to.write_all(compared.page.as_bytes()))?;
+    if png { draw_png(&folder.place, folder.path(), compared.figures) } else { Ok(Vec::new()) }
 }

@@ -11,11 +11,13 @@ mod run;
 mod study;
 mod table;
 
-pub use comparison::{prepare_comparison, write_comparison};
+pub use comparison::{Compared, prepare_comparison, write_comparison};
 pub use error::{Finished, Holder, OutputError};
 pub use folder::{Folder, Mode};
 pub use grains::CHECKPOINT;
 pub use path::default_folder;
-pub use run::{Written, fingerprint, read_run, read_series, redraw, write_failure, write_outcome, write_running};
+pub use run::{
+    Written, fingerprint, read_field, read_run, read_series, redraw, write_failure, write_outcome, write_running,
+};
 pub use study::StudyFolder;
 pub use table::TableFile;

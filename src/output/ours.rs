@@ -7,6 +7,8 @@ use super::error::OutputError;
 use super::grains::{CHECKPOINT, MOTION, is_frame, is_partial};
 use super::lock::is_lock;
 
+/// What the report shows that stands in no table.
+pub(super) const WORDS: &str = "page.json";
 /// The folder of figures as PNG.
 pub(super) const FIGURES: &str = "figures";
 /// The folder of the run folders of a study.
@@ -45,6 +47,7 @@ impl Kind {
                 MOTION,
                 "section.csv",
                 "section.vts",
+                WORDS,
             ],
             Self::Comparison => super::comparison::FILES,
             Self::Study => super::study::FILES,

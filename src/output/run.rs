@@ -5,6 +5,7 @@ use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 use std::process;
 
+use serde::{Deserialize, Serialize};
 use serde_json::Map;
 use sha2::{Digest, Sha256};
 
@@ -12,14 +13,12 @@ use super::error::OutputError;
 use super::folder::{Folder, write_whole};
 use super::grains::{MOTION, read_motion};
 use super::lock::Site;
-use super::ours::FIGURES;
+use super::ours::{FIGURES, WORDS};
 use super::path::resolve;
-use crate::case::Case;
-use crate::model::{Problem, Registry};
-use crate::plot::{self, Figure, Page};
-use crate::result::quantity;
+use crate::plot::{self, Page};
 use crate::result::{
-    Cost, ErrorReport, Failure, Outcome, Profile, Provenance, Results, Series, Status, Summary, TableError,
+    Axis, Cost, ErrorReport, Failure, Field, Figure, Head, Motion, Outcome, Profile, Provenance, Results, Series,
+    SideView, Statement, Status, Summary, TableError, quantity,
 };
 
 /// A run as it stands in its folder.
@@ -40,12 +39,12 @@ pub fn fingerprint(text: &str) -> String {
 }
 
 /// The summary of a run that has just begun.
-fn begin(case: &Case, problem: &Problem, resolved: &str, threads: usize) -> Summary {
+fn begin(head: &Head) -> Summary {
     Summary {
         format: Summary::FORMAT,
         status: Status::Running,
-        case: problem.name.clone(),
-        model: problem.model_name(),
+        case: head.case.clone(),
+        model: head.model.clone(),
         results: Results::default(),
         balances: Vec::new(),
         validity: Vec::new(),
@@ -53,10 +52,10 @@ fn begin(case: &Case, problem: &Problem, resolved: &str, threads: usize) -> Summ
         error: None,
         cost: Cost::default(),
         provenance: Provenance {
-            source: case.source.clone(),
-            overrides: case.overrides.clone(),
-            case_sha256: fingerprint(resolved),
-            threads,
+            source: head.source.clone(),
+            overrides: head.overrides.clone(),
+            case_sha256: fingerprint(&head.resolved),
+            threads: head.threads,
             ..Provenance::of_this_program()
         },
     }
@@ -66,11 +65,10 @@ fn begin(case: &Case, problem: &Problem, resolved: &str, threads: usize) -> Summ
 ///
 /// # Errors
 /// [`OutputError::Interrupted`] with the file that cannot be written.
-pub fn write_running(folder: &Folder, case: &Case, problem: &Problem, threads: usize) -> Result<Summary, OutputError> {
-    let resolved = case.resolved();
-    let summary = begin(case, problem, &resolved, threads);
+pub fn write_running(folder: &Folder, head: &Head) -> Result<Summary, OutputError> {
+    let summary = begin(head);
     write_summary(folder, &summary)?;
-    folder.write("case.toml", |to| to.write_all(resolved.as_bytes()))?;
+    folder.write("case.toml", |to| to.write_all(head.resolved.as_bytes()))?;
     Ok(summary)
 }
 
@@ -81,14 +79,14 @@ pub fn write_running(folder: &Folder, case: &Case, problem: &Problem, threads: u
 pub fn write_outcome(
     folder: &mut Folder,
     mut summary: Summary,
-    problem: &Problem,
+    head: &Head,
     outcome: &Outcome,
     cost: Cost,
     png: bool,
 ) -> Result<Written, OutputError> {
     summary.status = outcome.status;
     fill(&mut summary, outcome, cost);
-    let figures = write_body(folder, &summary, problem, Some(outcome), png)?;
+    let figures = write_body(folder, &summary, head, Some(outcome), png)?;
     complete(folder, summary, figures)
 }
 
@@ -99,7 +97,7 @@ pub fn write_outcome(
 pub fn write_failure(
     folder: &mut Folder,
     mut summary: Summary,
-    problem: &Problem,
+    head: &Head,
     failure: &Failure,
     cost: Cost,
     png: bool,
@@ -119,7 +117,7 @@ pub fn write_failure(
     } else {
         summary.cost = cost;
     }
-    let figures = write_body(folder, &summary, problem, last.as_deref(), png)?;
+    let figures = write_body(folder, &summary, head, last.as_deref(), png)?;
     complete(folder, summary, figures)
 }
 
@@ -128,7 +126,7 @@ fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
     summary.balances = outcome.balances.clone();
     summary.validity = outcome.validity.clone();
     summary.regularisation = outcome.regularisation.clone();
-    summary.cost = cost;
+    summary.cost = Cost { work_units: outcome.work, ..cost };
 }
 
 fn complete(folder: &mut Folder, summary: Summary, figures: Vec<PathBuf>) -> Result<Written, OutputError> {
@@ -154,13 +152,12 @@ fn write_summary(folder: &Folder, summary: &Summary) -> Result<(), OutputError> 
 fn write_body(
     folder: &Folder,
     summary: &Summary,
-    problem: &Problem,
+    head: &Head,
     outcome: Option<&Outcome>,
     png: bool,
 ) -> Result<Vec<PathBuf>, OutputError> {
     let comments = summary.provenance.lines();
-    let profile = outcome.and_then(|o| o.profile.as_ref());
-    if let Some(profile) = profile {
+    if let Some(profile) = outcome.and_then(|o| o.profile.as_ref()) {
         folder.write("profile.csv", |to| profile.write_csv(to, &comments).map_err(as_io))?;
     }
     if let Some(series) = outcome.and_then(|o| o.series.as_ref()) {
@@ -169,8 +166,16 @@ fn write_body(
     if let Some(outcome) = outcome {
         write_fields(folder, outcome)?;
     }
-    let case = fs::read_to_string(folder.place("case.toml")).unwrap_or_default();
-    draw(&folder.place, folder.path(), summary, profile, problem, &case, png)
+    let figures = outcome.map(|o| o.figures.clone()).unwrap_or_default();
+    let words = Words { title: head.title.clone(), statement: head.statement.clone(), figures };
+    folder.write(WORDS, |to| Ok(serde_json::to_writer(to, &words)?))?;
+    let drawn = Drawn {
+        profile: outcome.and_then(|o| o.profile.as_ref()),
+        field: outcome.and_then(|o| o.field.as_ref()),
+        grains: outcome.and_then(|o| o.grains.as_ref()),
+        animation: outcome.and_then(|o| o.animation.as_ref()).filter(|animation| animation.is_sound()),
+    };
+    draw((&folder.place, folder.path()), summary, &drawn, &words, &head.resolved, png)
 }
 
 /// Fields, grains and animation: what the report draws besides the tables.
@@ -199,58 +204,76 @@ fn as_io(error: TableError) -> io::Error {
     }
 }
 
+/// What the report shows that stands in no table: `page.json`.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+struct Words {
+    title: String,
+    #[serde(flatten)]
+    statement: Statement,
+    /// figures that only the model has
+    figures: Vec<Figure>,
+}
+
+/// What the report draws.
+struct Drawn<'a> {
+    profile: Option<&'a Profile>,
+    field: Option<&'a Field>,
+    grains: Option<&'a SideView>,
+    animation: Option<&'a Motion>,
+}
+
 /// Draws the report and, on demand, the figures as PNG, into `place`; `shown` is what the paths are called.
 fn draw(
-    place: &Path,
-    shown: &Path,
+    (place, shown): (&Path, &Path),
     summary: &Summary,
-    profile: Option<&Profile>,
-    problem: &Problem,
+    drawn: &Drawn<'_>,
+    words: &Words,
     case: &str,
     png: bool,
 ) -> Result<Vec<PathBuf>, OutputError> {
-    let mut figures = profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
-    figures.extend(profile.map(|p| plot::judge_figures(p, problem)).unwrap_or_default());
-    let page = {
-        let (equations, notes) = (problem.describe().equations, [problem.title.clone()]);
-        let picture = picture(place, summary);
-        let (figures, picture) = (&figures, picture.as_ref().map(|(svg, caption)| (svg.as_str(), *caption)));
-        let (motion, equations) = (read_motion(place), equations.as_str());
-        let motion = motion.as_ref();
-        plot::report_html(&Page { summary, figures, picture, motion, equations, case_toml: case, notes: &notes })
-    };
+    let mut figures = drawn.profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
+    figures.extend(words.figures.iter().cloned());
+    let picture = picture(drawn, summary);
+    let page = plot::report_html(&Page {
+        summary,
+        figures: &figures,
+        picture: picture.as_ref().map(|(svg, caption)| (svg.as_str(), *caption)),
+        motion: drawn.animation,
+        statement: &words.statement,
+        case_toml: case,
+        notes: std::slice::from_ref(&words.title),
+    });
     write_whole(&place.join("report.html"), |to| to.write_all(page.as_bytes()))?;
     if !png {
         return Ok(Vec::new());
     }
-    let mut drawn = draw_png(place, shown, &figures)?;
-    if let Some(map) = map(place, summary) {
-        drawn.push(draw_one(place, shown, "section", |path| plot::map_png(&map, path))?);
+    let mut files = draw_png(place, shown, &figures)?;
+    if let Some(map) = drawn.field.and_then(|field| map(field, summary)) {
+        files.push(draw_one(place, shown, "section", |path| plot::map_png(&map, path))?);
     }
-    Ok(drawn)
+    Ok(files)
 }
 
 /// The map of a run that has a section.
-fn map(place: &Path, summary: &Summary) -> Option<plot::Map> {
+fn map(field: &Field, summary: &Summary) -> Option<plot::Map> {
     let get = |quantity: &quantity::Quantity| summary.results.get(quantity.name);
-    let table = fs::File::open(place.join("section.csv")).ok().map(BufReader::new)?;
     let largest = get(&quantity::U_MAX).unwrap_or(1.0);
     let (unit, scale) = if largest < 0.1 { ("mm/s", 1e-3) } else { ("m/s", 1.0) };
     let half = get(&quantity::FLOW_RATE).is_some();
-    let panel = plot::section_map(table, half, get(&quantity::BED_LEVEL), ("", scale))?;
-    Some(plot::Map { panels: vec![panel], colours: plot::Axis::linear("velocity", unit) })
+    let panel = plot::section_map(field, half, get(&quantity::BED_LEVEL), ("", scale))?;
+    Some(plot::Map { panels: vec![panel], colours: Axis::linear("velocity", unit) })
 }
 
-/// The picture of a run that has a table for one, with its caption.
-fn picture(place: &Path, summary: &Summary) -> Option<(String, &'static str)> {
-    let table = |name: &str| fs::File::open(place.join(name)).ok().map(BufReader::new);
-    if let Some(svg) = table("grains.csv").and_then(plot::grains_svg) {
+/// The picture of a run that has fields, with its caption.
+fn picture(drawn: &Drawn<'_>, summary: &Summary) -> Option<(String, &'static str)> {
+    if let Some(svg) = drawn.grains.and_then(plot::grains_svg) {
         let caption =
             "Side view of the grains nearest to the viewer at the end, coloured by their velocity along the flow.";
         return Some((svg, caption));
     }
     let half = summary.results.get(quantity::FLOW_RATE.name).is_some();
-    let svg = plot::section_svg(table("section.csv")?, half, summary.results.get(quantity::BED_LEVEL.name))?;
+    let svg = plot::section_svg(drawn.field?, half, summary.results.get(quantity::BED_LEVEL.name))?;
     let caption = "Velocity in the section; inside the white lines the material does not yield. Dashed: the bed level.";
     Some((svg, caption))
 }
@@ -324,7 +347,7 @@ fn read_text(folder: &Path, name: &str) -> Result<String, OutputError> {
 ///
 /// # Errors
 /// [`OutputError::NotARun`] if the folder does not hold a run, [`OutputError::Interrupted`] if it cannot be written.
-pub fn redraw(registry: &Registry, folder: &Path, png: bool) -> Result<Written, OutputError> {
+pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
     let wrong = |reason: String| OutputError::NotARun { folder: folder.into(), reason };
     let before = read_run(folder);
     let _site = match Site::take(&resolve(folder)?) {
@@ -336,11 +359,36 @@ pub fn redraw(registry: &Registry, folder: &Path, png: bool) -> Result<Written, 
     // Read again: it may have been written until it was locked.
     let (summary, profile) = read_run(folder)?;
     let text = read_text(folder, "case.toml")?;
-    if let Ok(file) = fs::File::open(folder.join("series.csv")) {
-        Series::read_csv(BufReader::new(file)).map_err(|error| wrong(format!("series.csv: {error}")))?;
+    if fingerprint(&text) != summary.provenance.case_sha256 {
+        return Err(wrong("case.toml is not the case of the summary".into()));
     }
-    let checked = registry.parse(&summary.case, "case.toml", text.clone(), &[]);
-    let (_, problem) = checked.map_err(|error| wrong(error.to_string()))?;
-    let figures = draw(folder, folder, &summary, profile.as_ref(), &problem, &text, png)?;
+    let named = |name: &'static str| move |error: TableError| wrong(format!("{name}: {error}"));
+    let file = |name: &str| fs::File::open(folder.join(name)).ok().map(BufReader::new);
+    file("series.csv").map(Series::read_csv).transpose().map_err(named("series.csv"))?;
+    let field = read_field(folder)?;
+    let grains = file("grains.csv").map(SideView::read).transpose().map_err(named("grains.csv"))?.flatten();
+    let words = match file(WORDS) {
+        Some(file) => serde_json::from_reader(file).map_err(|error| wrong(format!("{WORDS}: {error}")))?,
+        // An earlier version wrote none: the tables are drawn.
+        None => Words::default(),
+    };
+    let animation = read_motion(folder);
+    let drawn = Drawn {
+        profile: profile.as_ref(),
+        field: field.as_ref(),
+        grains: grains.as_ref(),
+        animation: animation.as_ref(),
+    };
+    let figures = draw((folder, folder), &summary, &drawn, &words, &text, png)?;
     Ok(Written { summary, figures, kept: false })
+}
+
+/// The field of a run over its section, if its folder has one.
+///
+/// # Errors
+/// [`OutputError::NotARun`] if that file is none.
+pub fn read_field(folder: &Path) -> Result<Option<Field>, OutputError> {
+    let Ok(file) = fs::File::open(folder.join("section.csv")) else { return Ok(None) };
+    let wrong = |error| OutputError::NotARun { folder: folder.into(), reason: format!("section.csv: {error}") };
+    Field::read(BufReader::new(file)).map_err(wrong)
 }

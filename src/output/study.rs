@@ -14,7 +14,7 @@ use super::folder::{Folder, Mode, Stands};
 use super::ours::{self, Kind, POINTS, entries, holds_only};
 use super::path::resolve;
 use super::run::{draw_png, read_summary};
-use crate::plot::Figure;
+use crate::result::Figure;
 use crate::result::Status;
 
 /// Files that the folder of a study may hold.

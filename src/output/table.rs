@@ -9,7 +9,8 @@ use super::lock::Site;
 use super::ours::FIGURES;
 use super::path::{Made, resolve};
 use super::run::draw_one;
-use crate::plot::{self, Figure};
+use crate::plot::{self};
+use crate::result::Figure;
 
 /// A table that will be written, and its figure in the folder of figures beside it.
 #[derive(Debug)]

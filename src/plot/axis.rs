@@ -1,6 +1,6 @@
 //! Limits, round ticks and their labels.
 
-use super::{Axis, Scale};
+use crate::result::{Axis, Scale};
 
 /// An axis laid along pixels.
 #[derive(Clone, Debug)]

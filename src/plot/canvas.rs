@@ -11,8 +11,9 @@ use plotters::style::{
     Color, FontDesc, FontFamily, FontStyle, FontTransform, RGBColor, ShapeStyle, TextStyle, register_font,
 };
 
+use super::PlotError;
 use super::theme::{self, BOLD, Part, Role};
-use super::{Dash, Marker, PlotError};
+use crate::result::{Dash, Marker};
 
 /// What differs between a vector and a bitmap backend.
 #[derive(Clone, Copy)]

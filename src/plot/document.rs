@@ -1,9 +1,9 @@
 //! A page of tables and figures that is not that of a run: the same style, the same escaping.
 
-use super::Figure;
 use super::report::{figures, pairs, typeset};
 use super::shell::{foot, head};
 use super::svg::escape;
+use crate::result::Figure;
 
 /// What a page shows, from top to bottom.
 #[derive(Clone, Copy, Debug)]

@@ -4,10 +4,11 @@ use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
 use plotters::prelude::DrawingBackend;
 
+use super::PlotError;
 use super::canvas::{Align, Canvas, Medium, Stroke};
 use super::layout::{Frame, Layout, ROW, SAMPLE, SAMPLE_GAP, title};
 use super::theme::{BOLD, HAIR, LABEL, Part, Role, SMALL};
-use super::{Curve, Dash, Figure, Panel, PlotError};
+use crate::result::{Curve, Dash, Figure, Panel};
 
 const TICK: f64 = 5.0;
 const MINOR_TICK: f64 = 2.8;

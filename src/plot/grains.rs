@@ -1,9 +1,8 @@
 //! A side view of grains, coloured by their velocity.
 
 use std::fmt::Write;
-use std::io::BufRead;
 
-use crate::result::{Motion, read_columns};
+use crate::result::{Motion, SideView};
 use crate::units::readable;
 
 /// Colours from slow to fast; all tell apart from light and dark pages, and without colour by their lightness.
@@ -11,16 +10,10 @@ const COLOURS: [[f64; 3]; 4] = [[68.0, 58.0, 120.0], [49.0, 122.0, 142.0], [94.0
 /// Width of the picture [px].
 const WIDTH: f64 = 720.0;
 
-/// The picture from the columns x_m, z_m, radius_m, u_particle_m_s; none if there is nothing to draw.
+/// The picture; none if there is nothing to draw.
 #[must_use]
-pub fn grains_svg(table: impl BufRead) -> Option<String> {
-    let columns = read_columns(table).ok()?;
-    let column = |name: &str| columns.iter().find(|(n, _)| n == name).map(|(_, v)| v);
-    let [x, z, r, u] = [column("x_m")?, column("z_m")?, column("radius_m")?, column("u_particle_m_s")?];
-    let mut rows: Vec<[f64; 4]> = (0..x.len())
-        .filter_map(|i| Some([x[i]?, z[i]?, r[i]?, u[i]?]))
-        .filter(|row| row.iter().all(|v| v.is_finite()))
-        .collect();
+pub fn grains_svg(view: &SideView) -> Option<String> {
+    let mut rows: Vec<[f64; 4]> = view.grains.iter().copied().filter(|row| row.iter().all(|v| v.is_finite())).collect();
     let span = |rows: &[[f64; 4]], of: &dyn Fn(&[f64; 4]) -> [f64; 2]| {
         rows.iter().map(of).fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), [low, high]| (a.min(low), b.max(high)))
     };
@@ -114,17 +107,19 @@ mod tests {
     #[test]
     fn every_grain_is_a_circle_and_nothing_is_no_picture() {
         let table = "x_m,z_m,radius_m,u_particle_m_s\n0,0,0.003,0\n0.006,0,0.003,0.5\n";
-        let svg = grains_svg(table.as_bytes()).unwrap();
+        let view = SideView::read(table.as_bytes()).unwrap().unwrap();
+        let svg = grains_svg(&view).unwrap();
         assert_eq!(svg.matches("<circle").count(), 2);
         assert!(svg.contains("#443a78") && svg.contains("#f0d232"), "slow and fast differ");
-        assert!(grains_svg("x_m,z_m,radius_m,u_particle_m_s\n".as_bytes()).is_none());
+        assert!(grains_svg(&SideView::default()).is_none());
+        assert_eq!(SideView::read(view.csv().as_bytes()).unwrap(), Some(view));
+        assert_eq!(SideView::read("x_m\n1\n".as_bytes()).unwrap(), None);
     }
 
     #[test]
     fn of_a_long_bed_the_beginning_is_drawn_and_said() {
-        let rows = (0..1000).map(|i| format!("{},0,0.003,0.1\n", 0.006 * f64::from(i)));
-        let table = String::from("x_m,z_m,radius_m,u_particle_m_s\n") + &rows.collect::<String>();
-        let svg = grains_svg(table.as_bytes()).unwrap();
+        let grains = (0..1000).map(|i| [0.006 * f64::from(i), 0.0, 0.003, 0.1]).collect();
+        let svg = grains_svg(&SideView { grains }).unwrap();
         assert_eq!(svg.matches("<circle").count(), 12);
         assert!(svg.contains("the first 72.00 mm of 6.000 m"), "{}", &svg[..200]);
     }

@@ -1,32 +1,15 @@
-//! Figures of grains that collide: their velocity fluctuations and what feeds them, and how friction and solid fraction go with
-//! the inertial number.
+//! Figure of grains that collide: their velocity fluctuations and what feeds them.
 
-use super::profile::sentence;
-use super::{Axis, Curve, Dash, Figure, Panel};
-use crate::closures::kinetic::Inertial;
+use crate::result::figure::sentence;
 use crate::result::quantity::{self, Quantity};
+use crate::result::{Axis, Curve, Dash, Figure, Panel};
 use crate::result::{Profile, Summary};
 use crate::units::readable_unit;
 
-/// Inertial numbers that are drawn.
-const DRAWN: (f64, f64) = (1e-4, 1e2);
-/// Solid fraction at rest of phi(I): Maurin, Chauchat & Frey (2016).
-pub(super) const PHI_C: f64 = 0.61;
-/// Solid fraction above which grains are drawn in the plane of the inertial number.
-const ENOUGH: f64 = 1e-3;
-
-/// The figures; none for a profile without the budget of the fluctuations.
-pub(super) fn kinetic_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
-    let scene = Scene { profile, z: profile.axis() };
-    if profile.get(&quantity::PRODUCTION).is_none() {
-        return Vec::new();
-    }
-    let mut figures = vec![scene.fluctuations(&summary.case)];
-    // Grains with error bars have a figure of their own.
-    if profile.get(&quantity::P_PARTICLE_STDERR).is_none() {
-        figures.extend(scene.rheology(&summary.case));
-    }
-    figures
+/// The figure; none for a profile without the budget of the fluctuations.
+pub(super) fn kinetic_figure(profile: &Profile, summary: &Summary) -> Option<Figure> {
+    profile.get(&quantity::PRODUCTION)?;
+    Some(Scene { profile, z: profile.axis() }.fluctuations(&summary.case))
 }
 
 struct Scene<'a> {
@@ -91,45 +74,5 @@ impl Scene<'_> {
             levels: Vec::new(),
             tint_below: None,
         }
-    }
-
-    /// Friction and solid fraction over the inertial number.
-    fn rheology(&self, case: &str) -> Vec<Figure> {
-        let rows: Vec<usize> = (0..self.z.len())
-            .filter(|&row| self.at(&quantity::PHI, row).is_some_and(|phi| phi > ENOUGH))
-            .filter(|&row| self.at(&quantity::INERTIAL_NUMBER, row).is_some_and(|i| (DRAWN.0..DRAWN.1).contains(&i)))
-            .collect();
-        if rows.len() < 2 {
-            return Vec::new();
-        }
-        let over = |value: &dyn Fn(usize) -> Option<f64>| -> Vec<Option<(f64, f64)>> {
-            rows.iter().map(|&row| Some((self.at(&quantity::INERTIAL_NUMBER, row)?, value(row)?))).collect()
-        };
-        let friction = |row: usize| Some(self.at(&quantity::TAU_PARTICLE, row)? / self.at(&quantity::P_PARTICLE, row)?);
-        let phi = |row: usize| self.at(&quantity::PHI, row);
-        let dense = Inertial::default();
-        let figure =
-            |stem: &str, title: &str, value: &dyn Fn(usize) -> Option<f64>, law: (&str, &dyn Fn(f64) -> f64)| Figure {
-                stem: stem.into(),
-                caption: format!("{case}: {title} over the inertial number."),
-                y: Axis::linear(title, ""),
-                panels: vec![Panel {
-                    x: Axis::log("inertial number I", ""),
-                    curves: vec![
-                        Self::curve("here", (2, Dash::Solid), over(value)),
-                        Self::curve(
-                            law.0,
-                            (0, Dash::DashDotted),
-                            over(&|row| Some(law.1(self.at(&quantity::INERTIAL_NUMBER, row)?))),
-                        ),
-                    ],
-                }],
-                levels: Vec::new(),
-                tint_below: None,
-            };
-        vec![
-            figure("friction_inertial", "friction τₚ/Pₚ", &friction, ("μ(I)", &|i| dense.mu(i))),
-            figure("fraction_inertial", "solid fraction φ", &phi, ("φ(I)", &|i| PHI_C / (1.0 + dense.b * i))),
-        ]
     }
 }

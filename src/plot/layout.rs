@@ -1,9 +1,10 @@
 //! Where everything goes: frames side by side, room for labels, and a place for each legend that no curve crosses.
 
+use super::PlotError;
 use super::axis::{self, Ruler};
 use super::canvas::width;
 use super::theme::{LABEL, SMALL};
-use super::{Axis, Figure, Panel, PlotError, Scale};
+use crate::result::{Axis, Figure, Panel, Scale};
 
 /// Positions in units of the figure: x to the right, y downward.
 pub(super) struct Layout {
@@ -232,7 +233,7 @@ pub(super) fn title(axis: &Axis, ruler: &Ruler) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::plot::{Curve, Dash, Level};
+    use crate::result::{Curve, Dash, Level};
 
     fn figure(points: Vec<Option<(f64, f64)>>) -> Figure {
         let name = "a long legend".to_owned();

@@ -8,7 +8,7 @@ use super::canvas::kept;
 use super::layout::{Frame, Layout};
 use super::svg::{GRID, escape};
 use super::theme::Part;
-use super::{Axis, Curve, Figure, Panel, Scale};
+use crate::result::{Axis, Curve, Figure, Panel, Scale};
 
 /// A line without markers is given by the points that it needs to stay within this of all of them [units of the figure].
 const TOLERANCE: f64 = 0.003;
@@ -108,6 +108,7 @@ fn number(x: f64) -> String {
 mod tests {
     use super::super::{profile_figures, several, trials};
     use super::*;
+    use crate::result::Dash;
 
     #[test]
     fn numbers_are_short_and_keep_six_digits() {
@@ -122,8 +123,7 @@ mod tests {
         figure.panels.truncate(1);
         figure.panels[0].x = Axis::linear("x", "m");
         let line = (0..=10).map(|i| (i != 5).then(|| (f64::from(i), 0.3 * f64::from(i))));
-        figure.panels[0].curves =
-            vec![Curve { points: line.collect(), line: Some(super::super::Dash::Solid), ..Curve::default() }];
+        figure.panels[0].curves = vec![Curve { points: line.collect(), line: Some(Dash::Solid), ..Curve::default() }];
         let layout = Layout::new(&figure).unwrap();
         let tag = open(Part::Curve, (0, 0), &figure, &layout);
         assert!(tag.contains("data-points=\"0,0 4,1.2;6,1.8 10,3\""), "{tag}");

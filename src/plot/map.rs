@@ -4,12 +4,13 @@ use std::path::Path;
 
 use plotters::prelude::{BitMapBackend, DrawingBackend, IntoDrawingArea};
 
+use super::PlotError;
 use super::axis::{Ruler, caption};
 use super::canvas::{Align, Canvas, LINE_HEIGHT, Medium, Stroke};
 use super::grains::shade;
 use super::png::{FINER, WIDTH, averaged};
 use super::theme::{self, BOLD, HAIR, LABEL, Role, SMALL};
-use super::{Axis, Dash, PlotError};
+use crate::result::{Axis, Dash};
 
 /// Panels side by side, with one scale of colours.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,7 +8,8 @@ use plotters::style::WHITE;
 use super::canvas::{LINE_HEIGHT, Medium};
 use super::draw::draw;
 use super::layout::Layout;
-use super::{Figure, PlotError, theme};
+use super::{PlotError, theme};
+use crate::result::Figure;
 
 /// Width of the file [pixels].
 pub(super) const WIDTH: u32 = 1600;

@@ -5,7 +5,8 @@ use crate::result::{Profile, Summary};
 use crate::units::readable_unit;
 
 use super::interface::Interface;
-use super::{Axis, Curve, Dash, Figure, Level, Panel, Scale};
+use crate::result::figure::sentence;
+use crate::result::{Axis, Curve, Dash, Figure, Level, Panel, Scale};
 
 /// Profiles over the elevation: velocities, shear stresses, solid fraction and flux, or what stands for them in a clear
 /// flow; and, where turbulence over a wall spans decades of z, the velocity over log z. A quantity that the profile
@@ -41,8 +42,7 @@ pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
     if !turbulence.is_empty() {
         figures.push(scene.figure("turbulence", turbulence, scene.elevation()));
     }
-    figures.extend(super::sheet::sheet_figures(profile, summary));
-    figures.extend(super::kinetic::kinetic_figures(profile, summary));
+    figures.extend(super::kinetic::kinetic_figure(profile, summary));
     if scene.is_logarithmic()
         && let Some(velocities) = scene.velocities()
     {
@@ -274,15 +274,6 @@ fn distinct(lines: Vec<Line>) -> Vec<Line> {
         }
     }
     kept
-}
-
-/// `(a) velocity, (b) shear stress`.
-pub(super) fn sentence(panels: &[Panel]) -> String {
-    let lettered = |(i, panel): (usize, &Panel)| match panels.len() {
-        1 => panel.x.title.clone(),
-        _ => format!("({}) {}", char::from(b'a'.saturating_add(i as u8)), panel.x.title),
-    };
-    panels.iter().enumerate().map(lettered).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]

@@ -4,13 +4,13 @@
 use std::fmt::Write as _;
 
 use crate::result::quantity::{self, RESULTS};
-use crate::result::{Motion, Reported, Status, Summary};
+use crate::result::{Motion, Reported, Statement, Status, Summary};
 use crate::units::{readable, readable_mean, significant};
 
-use super::Figure;
 use super::motion::motion_html;
 use super::shell::{foot, head};
 use super::svg::{escape, svg};
+use crate::result::Figure;
 
 /// What the page shows.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +23,8 @@ pub struct Page<'a> {
     pub picture: Option<(&'a str, &'a str)>,
     /// the film of its grains, which takes the place of the picture where it can be played
     pub motion: Option<&'a Motion>,
-    /// the equations solved, as text with line breaks
-    pub equations: &'a str,
+    /// the equations solved, and the laws in them
+    pub statement: &'a Statement,
     /// the resolved case
     pub case_toml: &'a str,
     /// remarks, one paragraph each
@@ -68,18 +68,40 @@ pub fn report_html(page: &Page<'_>) -> String {
     for note in page.notes {
         html += &format!("<p class=\"note\">{}</p>\n", escape(note));
     }
-    if !page.equations.trim().is_empty() {
-        html += &format!(
-            "<section><h2>Equations solved</h2><pre class=\"equations\">{}</pre></section>\n",
-            escape(page.equations.trim_end())
-        );
-    }
+    html += &statement(page.statement);
     html += &origin(summary);
     html += &format!(
         "<details><summary>Resolved case, every default filled in</summary><pre>{}</pre></details>\n",
         escape(page.case_toml.trim_end())
     );
     html + &foot()
+}
+
+/// Equations and laws.
+fn statement(statement: &Statement) -> String {
+    let mut html = String::new();
+    if !statement.equations.trim().is_empty() {
+        html += &format!(
+            "<section><h2>Equations solved</h2><pre class=\"equations\">{}</pre></section>\n",
+            escape(statement.equations.trim_end())
+        );
+    }
+    if !statement.laws.is_empty() {
+        html += "<section><h2>Laws</h2><div class=\"wide\"><table><thead><tr><th>law</th><th>equation</th><th>given for</th>\
+                 <th>source</th></tr></thead><tbody>";
+        for law in &statement.laws {
+            html += &format!(
+                "<tr><td><code>{}/{}</code></td><td>{}</td><td>{}</td><td>{}</td></tr>",
+                escape(&law.family),
+                escape(&law.law),
+                escape(&law.equation),
+                escape(&law.ranges.join("; ")),
+                escape(&law.source)
+            );
+        }
+        html += "</tbody></table></div></section>\n";
+    }
+    html
 }
 
 /// What went wrong, before everything else, and whether a state was drawn nevertheless.
@@ -295,6 +317,7 @@ mod tests {
     use super::super::shell::tests::has_one_script;
     use super::super::{profile_figures, trials};
     use super::*;
+    use crate::result::StatedLaw;
 
     #[test]
     fn numbers_and_symbols_are_typeset() {
@@ -319,7 +342,7 @@ mod tests {
             figures: &figures,
             picture: None,
             motion: None,
-            equations: "τ = η du/dz",
+            statement: &Statement { equations: "τ = η du/dz".into(), laws: Vec::new() },
             case_toml: toml,
             notes: &[],
         });
@@ -346,12 +369,13 @@ mod tests {
         let summary = trials::hostile_failure();
         let figures = profile_figures(&trials::laminar_bed().0, &summary);
         let hostile = "</pre><script>alert(1)</script>";
+        let law = StatedLaw { equation: hostile.into(), source: hostile.into(), ..StatedLaw::default() };
         let html = report_html(&Page {
             summary: &summary,
             figures: &figures,
             picture: None,
             motion: None,
-            equations: hostile,
+            statement: &Statement { equations: hostile.into(), laws: vec![law] },
             case_toml: hostile,
             notes: &[hostile.into()],
         });

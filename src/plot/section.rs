@@ -2,12 +2,10 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::io::BufRead;
 
 use super::grains::{colour, scale_bar};
 use super::map::{MapPanel, Place, Trail};
-use super::{Axis, Dash};
-use crate::result::{Values, read_columns};
+use crate::result::{Axis, Dash, Field};
 
 /// Width or height of the picture, whichever is larger [px].
 const SIZE: f64 = 560.0;
@@ -24,11 +22,10 @@ struct Grid {
     vectors: Option<(Vec<f64>, Vec<f64>)>,
 }
 
-/// The map from the columns column, row, y_m, z_m, u_mixture_m_s or speed_m_s, unyielded; `symmetric` adds the other half of
-/// the section, `bed` [m] draws a level. None if there is nothing to draw.
+/// The map of a field with u_mixture_m_s or speed_m_s, and unyielded; `symmetric` adds the other half of the section, `bed` [m] draws a level. None if there is nothing to draw.
 #[must_use]
-pub fn section_svg(table: impl BufRead, symmetric: bool, bed: Option<f64>) -> Option<String> {
-    let grid = Grid::read(&read_columns(table).ok()?)?;
+pub fn section_svg(field: &Field, symmetric: bool, bed: Option<f64>) -> Option<String> {
+    let grid = Grid::of(field)?;
     let high = |of: &dyn Fn(&(f64, f64)) -> f64| grid.places.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
     let (right, top) = (high(&|p| p.0), high(&|p| p.1));
     let left = if symmetric { -right } else { 0.0 };
@@ -74,13 +71,8 @@ pub fn section_svg(table: impl BufRead, symmetric: bool, bed: Option<f64>) -> Op
 
 /// The same as a panel of a map, in millimetres where the section is small, the velocity in units of `speed` [m/s].
 #[must_use]
-pub fn section_map(
-    table: impl BufRead,
-    symmetric: bool,
-    bed: Option<f64>,
-    (title, speed): (&str, f64),
-) -> Option<MapPanel> {
-    let grid = Grid::read(&read_columns(table).ok()?)?;
+pub fn section_map(field: &Field, symmetric: bool, bed: Option<f64>, (title, speed): (&str, f64)) -> Option<MapPanel> {
+    let grid = Grid::of(field)?;
     let high = |of: &dyn Fn(&Place) -> f64| grid.places.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
     let (right, top) = (high(&|p| p.0), high(&|p| p.1));
     let (unit, scale) = if top < 0.5 { ("mm", 1e3) } else { ("m", 1.0) };
@@ -182,21 +174,17 @@ impl Grid {
         lines
     }
 
-    fn read(columns: &[(String, Values)]) -> Option<Self> {
-        let column = |name: &str| -> Option<Vec<f64>> {
-            columns.iter().find(|(n, _)| n == name)?.1.iter().copied().collect::<Option<Vec<f64>>>()
-        };
-        let (column_of, y, z) = (column("column")?, column("y_m")?, column("z_m")?);
-        let speed = column("u_mixture_m_s").or_else(|| column("speed_m_s"))?;
-        let across = column_of.iter().skip(1).position(|i| *i == 0.0)? + 1;
-        let whole = speed.len().is_multiple_of(across) && across > 2 && speed.len() > 2 * across;
+    fn of(field: &Field) -> Option<Self> {
+        let across = field.across;
+        let speed = field.get("u_mixture_m_s").or_else(|| field.get("speed_m_s"))?.to_vec();
+        let whole = across > 2 && speed.len() > 2 * across && speed.len().is_multiple_of(across);
         // The stress is smooth where the share of elements makes steps.
-        let still = match column("stress_over_yield") {
-            Some(stress) => stress.into_iter().map(|s| 1.5 - s).collect(),
-            None => column("unyielded")?,
+        let still = match field.get("stress_over_yield") {
+            Some(stress) => stress.iter().map(|s| 1.5 - s).collect(),
+            None => field.get("unyielded")?.to_vec(),
         };
-        let vectors = column("u_m_s").zip(column("w_m_s"));
-        whole.then(|| Self { across, places: y.into_iter().zip(z).collect(), speed, still, vectors })
+        let vectors = field.get("u_m_s").zip(field.get("w_m_s")).map(|(u, w)| (u.to_vec(), w.to_vec()));
+        whole.then(|| Self { across, places: field.places.clone(), speed, still, vectors })
     }
 
     fn up(&self) -> usize {
@@ -262,11 +250,14 @@ mod tests {
                 let _ = writeln!(table, "{i},{j},{i},{j},{},{}", i + j, u8::from(j == 0));
             }
         }
-        let svg = section_svg(table.as_bytes(), true, Some(1.0)).unwrap();
+        let field = Field::read(table.as_bytes()).unwrap().unwrap();
+        let svg = section_svg(&field, true, Some(1.0)).unwrap();
         assert_eq!(svg.matches("<polygon").count(), 8);
         assert!(svg.contains("M") && svg.contains("stroke-dasharray"));
-        let outline = Grid::read(&read_columns(table.as_bytes()).unwrap()).unwrap().outline();
+        let outline = Grid::of(&field).unwrap().outline();
         assert!(!outline.is_empty() && outline.iter().all(|(a, b)| a.1 == 0.5 && b.1 == 0.5), "{outline:?}");
-        assert!(section_svg("column,row,y_m,z_m\n".as_bytes(), true, None).is_none());
+        let again = Field::read(field.csv().as_bytes()).unwrap().unwrap();
+        assert_eq!((again.across, again.up, again.csv()), (3, 3, field.csv()));
+        assert!(Field::read("column,row,y_m,z_m\n".as_bytes()).unwrap().is_none());
     }
 }

@@ -5,8 +5,8 @@ use crate::result::quantity::{self, COLUMNS, Quantity};
 use crate::units::readable_unit;
 
 use super::interface::Interface;
-use super::profile::sentence;
-use super::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
+use crate::result::figure::sentence;
+use crate::result::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
 
 /// One profile among several.
 #[derive(Clone, Copy, Debug)]

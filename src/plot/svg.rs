@@ -8,7 +8,8 @@ use plotters::prelude::{IntoDrawingArea, SVGBackend};
 use super::canvas::{LINE_HEIGHT, Medium};
 use super::draw::draw;
 use super::layout::Layout;
-use super::{Figure, PlotError, live, theme};
+use super::{PlotError, live, theme};
+use crate::result::Figure;
 
 /// Grid steps per unit of the figure.
 pub(super) const GRID: f64 = 10.0;
@@ -146,8 +147,9 @@ pub(super) fn escape(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Axis, Curve, Dash, Level, Marker, Panel, Scale, profile_figures, trials};
+    use super::super::{profile_figures, trials};
     use super::*;
+    use crate::result::{Axis, Curve, Dash, Level, Marker, Panel, Scale};
 
     fn sound(drawing: &str) {
         for word in ["NaN", "inf", "-2147483648", "2147483647", "5E\"", "<script"] {

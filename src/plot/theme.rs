@@ -2,7 +2,7 @@
 
 use plotters::style::RGBColor;
 
-use super::Dash;
+use crate::result::Dash;
 
 /// What a stroke or an area is for; the theme gives it a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

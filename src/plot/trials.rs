@@ -2,9 +2,9 @@
 
 use serde_json::json;
 
-use super::{Axis, Curve, Dash, Figure, Marker, Panel};
 use crate::result::quantity as q;
-use crate::result::{Balance, Cost, ErrorReport, Profile, Provenance, Results, Status, Summary, Validity};
+use crate::result::{Axis, Curve, Dash, Figure, Marker, Panel};
+use crate::result::{Balance, Cost, ErrorReport, Profile, Provenance, Results, Statement, Status, Summary, Validity};
 
 const LEVELS: usize = 200;
 
@@ -242,6 +242,7 @@ fn draw_the_trials() {
     let Ok(folder) = std::env::var("BEDLOAD_TRIALS") else { return };
     let folder = std::path::Path::new(&folder);
     let equations = "fluid       0 = f + d/dz[(1 + 5/2 φ) η dU/dz] + dτ_p/dz\ngrains      |τ_p| ≤ μ_s P_p,  dP_p/dz = −φ (ρ_p − ρ_f) g\ntransport   q_p = ∫ φ u_p dz";
+    let statement = Statement { equations: equations.into(), laws: Vec::new() };
     let mut hostile = (laminar_bed().0, hostile_failure());
     hostile.1.results = Results::default();
     for (profile, summary) in [laminar_bed(), two_fluid_bed(), log_law(), bingham_plane(), hostile] {
@@ -254,7 +255,7 @@ fn draw_the_trials() {
             figures: &figures,
             picture: None,
             motion: None,
-            equations,
+            statement: &statement,
             case_toml,
             notes: &notes,
         };

@@ -2,7 +2,10 @@
 
 use serde_json::{Map, Value};
 
-use super::{Balance, Failure, Field, Motion, Profile, Results, Series, SideView, SolveError, Status, Validity};
+use super::{
+    Balance, Failure, Field, Figure, Motion, Profile, Results, Series, SideView, SolveError, Statement, Status,
+    Validity, quantity as q,
+};
 
 /// Everything that a run has to say, before it is written.
 #[derive(Clone, Debug)]
@@ -27,6 +30,12 @@ pub struct Outcome {
     pub grains: Option<SideView>,
     /// grains as they flowed, seen from the side
     pub animation: Option<Motion>,
+    /// figures that only the model has, besides those that its columns give
+    pub figures: Vec<Figure>,
+    /// the equations that were solved, and the laws in them
+    pub statement: Statement,
+    /// what was computed: cells or grains, times the systems solved or the steps made
+    pub work: f64,
 }
 
 impl Outcome {
@@ -44,7 +53,21 @@ impl Outcome {
             field: None,
             grains: None,
             animation: None,
+            figures: Vec::new(),
+            statement: Statement::default(),
+            work: 0.0,
         }
+    }
+
+    /// How often each cell or grain was computed: the time that was followed over its step, the systems that were solved, or
+    /// once.
+    #[must_use]
+    pub fn steps(&self) -> f64 {
+        let of = |quantity: &q::Quantity| self.results.get(quantity.name);
+        let followed = || Some((of(&q::TRANSIENT)? + of(&q::AVERAGED_TIME)?) / of(&q::TIME_STEP)?);
+        let iterated = || self.series.as_ref().filter(|s| s.get(&q::RESIDUAL).is_some()).map(|s| s.rows() as f64);
+        let counted = || of(&q::ITERATIONS).or(of(&q::NEWTON_ITERATIONS));
+        followed().or_else(counted).or_else(iterated).unwrap_or(1.0).max(1.0)
     }
 
     /// The outcome, if every number in it is one and its balances close to `limit`; else a failure that keeps what can be kept.
@@ -69,5 +92,26 @@ impl Outcome {
         self.balances.retain(|b| b.relative.is_finite());
         self.validity.retain(|v| v.value.is_finite());
         Err(Failure { error, last: Some(Box::new(self)) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn work_is_counted_in_steps_systems_or_once() {
+        let mut outcome = Outcome::stopped();
+        assert_eq!(outcome.steps(), 1.0);
+        let mut series = Series::new(vec![1.0, 2.0, 3.0]).unwrap();
+        series.push(&q::RESIDUAL, vec![Some(1.0), Some(0.1), Some(1e-9)]).unwrap();
+        outcome.series = Some(series);
+        assert_eq!(outcome.steps(), 3.0);
+        outcome.results.set(&q::NEWTON_ITERATIONS, 40.0);
+        assert_eq!(outcome.steps(), 40.0);
+        outcome.results.set(&q::TIME_STEP, 0.5);
+        outcome.results.set(&q::TRANSIENT, 10.0);
+        outcome.results.set(&q::AVERAGED_TIME, 30.0);
+        assert_eq!(outcome.steps(), 80.0);
     }
 }

@@ -15,9 +15,9 @@ use super::ladder::{KEY, rungs};
 use super::{Judgement, Plan, Point, Row, StudyError};
 use crate::model::{Problem, Registry};
 use crate::output::read_run;
-use crate::plot::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
 use crate::result::Status;
 use crate::result::quantity::{self as q, Quantity};
+use crate::result::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
 use crate::units::{readable_known, significant};
 
 /// What is judged unless another number is asked for: the first of these that the reference has.
@@ -184,15 +184,9 @@ fn truth(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Optio
     }
 }
 
-/// Cells times iterations, or grains times steps.
+/// Cells times iterations, or grains times steps, as the run counted them.
 fn work(row: &Row) -> Option<f64> {
-    let of = |q: &Quantity| row.result(q.name);
-    if let (Some(grains), Some(step)) = (of(&q::GRAINS), of(&q::TIME_STEP)) {
-        let lasted = of(&q::TRANSIENT)? + of(&q::AVERAGED_TIME)?;
-        return Some(grains * lasted / step);
-    }
-    let iterations = of(&q::ITERATIONS).or(row.iterations.map(|n| n as f64)).unwrap_or(1.0).max(1.0);
-    Some(row.cost.work_units * iterations).filter(|work| *work > 0.0)
+    Some(row.cost.work_units).filter(|work| *work > 0.0)
 }
 
 fn judge(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Judgement {

@@ -4,7 +4,7 @@ use super::{Judgement, Plan, Row, StudyError, mesh, regularisation};
 use crate::case::shipped;
 use crate::model::Focus;
 use crate::model::Registry;
-use crate::plot::{Curve, Dash, Marker};
+use crate::result::{Curve, Dash, Marker};
 
 /// What is refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

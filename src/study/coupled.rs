@@ -11,9 +11,9 @@ use super::range::number_and_unit;
 use super::{Judgement, Row};
 use crate::closures::transport::LAWS;
 use crate::compare::norms::deviation;
-use crate::plot::{Axis, Curve, Dash, Figure, Panel};
 use crate::result::Status;
 use crate::result::quantity::{self as q, Quantity};
+use crate::result::{Axis, Curve, Dash, Figure, Panel};
 use crate::units::significant;
 
 /// Places at which a law is drawn.

@@ -10,8 +10,8 @@ use super::orders::{ROUND_OFF, overall, slopes};
 use super::{Judgement, Point, Row};
 use crate::model::ClosedForm;
 use crate::model::{Focus, Meshes};
-use crate::plot::{Axis, Curve, Dash, Figure, Panel};
 use crate::result::Status;
+use crate::result::{Axis, Curve, Dash, Figure, Panel};
 
 /// What is varied.
 pub(super) const KEY: &str = "grid.cells";

@@ -32,8 +32,7 @@ use serde_json::{Map, Value};
 use crate::case::{CaseError, nearest};
 use crate::compare::DataError;
 use crate::output::{OutputError, default_folder};
-use crate::plot::Figure;
-use crate::result::{Cost, ErrorReport, Profile, Results, Status};
+use crate::result::{Cost, ErrorReport, Field, Figure, Profile, Results, Status};
 
 pub use runner::{Conducted, Next, Observer, Settings, conduct};
 
@@ -88,6 +87,8 @@ pub struct Row {
     pub cost: Cost,
     /// columns over z [SI]
     pub profile: Option<Profile>,
+    /// fields over the section
+    pub field: Option<Field>,
 }
 
 /// What the rows say together.

@@ -10,9 +10,9 @@ use super::errors::{CREEP, Columns, L2, RMS_PAPER, Truth, column};
 use super::orders::{Fit, between, fit, overall, slopes};
 use super::{Judgement, Point, Row};
 use crate::model::{Focus, Rule, Sizes, Smoothed};
-use crate::plot::{Axis, Dash, Figure, Panel};
 use crate::result::Status;
 use crate::result::quantity::SHEAR_RATE;
+use crate::result::{Axis, Dash, Figure, Panel};
 use crate::units::significant;
 
 const EXACT: &str = "exact yield";

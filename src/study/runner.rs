@@ -14,8 +14,8 @@ use super::{Judgement, Plan, Point, Row, StudyError, page, record};
 use crate::case::{Case, CaseError};
 use crate::model::{Problem, Registry};
 use crate::output::{
-    Folder, Mode, OutputError, StudyFolder, fingerprint, read_run, read_series, write_failure, write_outcome,
-    write_running,
+    Folder, Mode, OutputError, StudyFolder, fingerprint, read_field, read_run, read_series, write_failure,
+    write_outcome, write_running,
 };
 use crate::result::Context;
 use crate::result::{Cost, ErrorReport, Provenance, Results, Snapshot, Status, Watch};
@@ -236,6 +236,7 @@ fn finished(place: &Path, mode: Mode) -> Option<Row> {
         iterations: read_series(place).map(|series| series.rows()),
         cost: summary.cost,
         profile,
+        field: read_field(place).ok().flatten(),
         ..Row::empty(Status::Done)
     })
 }
@@ -252,13 +253,14 @@ fn solve(
     }
     let start = Instant::now();
     let mut folder = prepare()?;
-    let summary = write_running(&folder, case, problem, 1)?;
+    let head = problem.head(case, 1);
+    let summary = write_running(&folder, &head)?;
     let solving = Instant::now();
-    let result = problem.run(&mut Context::new(&mut Listening(observer)));
+    let result = problem.solve(&mut Context::new(&mut Listening(observer)));
     let mut times = vec![solving.elapsed()];
     while times.len() < repeats && times.iter().sum::<Duration>() < ENOUGH && result.is_ok() && !observer.stop() {
         let again = Instant::now();
-        let _ = problem.run(&mut Context::new(&mut Listening(observer)));
+        let _ = problem.solve(&mut Context::new(&mut Listening(observer)));
         times.push(again.elapsed());
     }
     times.sort();
@@ -271,19 +273,20 @@ fn solve(
         repeats: times.len(),
         spread_s: (times.len() > 1).then(|| (times[3 * times.len() / 4] - times[times.len() / 4]).as_secs_f64()),
     };
-    Ok(match result {
+    Ok(match problem.complete(result) {
         Ok(outcome) => {
-            let written = write_outcome(&mut folder, summary, problem, &outcome, cost, false)?.summary;
+            let written = write_outcome(&mut folder, summary, &head, &outcome, cost, false)?.summary;
             Row {
                 results: written.results,
                 iterations: outcome.series.as_ref().map(|series| series.rows()),
                 cost: written.cost,
                 profile: outcome.profile,
+                field: outcome.field,
                 ..Row::empty(outcome.status)
             }
         }
         Err(failure) => {
-            let written = write_failure(&mut folder, summary, problem, &failure, cost, false)?.summary;
+            let written = write_failure(&mut folder, summary, &head, &failure, cost, false)?.summary;
             Row { error: written.error, results: written.results, cost: written.cost, ..Row::empty(Status::Failed) }
         }
     })
@@ -318,6 +321,7 @@ impl Row {
             iterations: None,
             cost: Cost::default(),
             profile: None,
+            field: None,
         }
     }
 }

@@ -3,9 +3,9 @@
 use super::Row;
 use super::converge::curve;
 use crate::closures::transport::LAWS;
-use crate::plot::{Axis, Curve, Dash, Figure, Panel};
 use crate::result::Status;
 use crate::result::quantity::{self as q, Quantity};
+use crate::result::{Axis, Curve, Dash, Figure, Panel};
 use crate::units::readable_unit;
 
 /// Places at which a law is drawn.

@@ -15,8 +15,8 @@ use super::range::{MOST, Varied, number_and_unit, parse};
 use super::{Judgement, Plan, Point, Row, StudyError};
 use crate::case::checks::Class;
 use crate::model::Registry;
-use crate::plot::{Axis, Curve, Figure, Marker, Panel, Scale};
 use crate::result::Status;
+use crate::result::{Axis, Curve, Figure, Marker, Panel, Scale};
 use crate::units::significant;
 
 /// What the user asks for.

@@ -5,9 +5,9 @@ use serde_json::json;
 use super::converge::{Judge, curve};
 use super::range::{MOST, Varied, number_and_unit, parse};
 use super::{Judgement, Plan, Point, Row, StudyError};
-use crate::plot::{Axis, Curve, Figure, Panel, Scale};
 use crate::result::Status;
 use crate::result::quantity::{self, Quantity};
+use crate::result::{Axis, Curve, Figure, Panel, Scale};
 use crate::units::{parse_quantity, readable, readable_unit, significant};
 
 /// What a sweep shows: the first of these that any point reports.

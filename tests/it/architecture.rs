@@ -54,14 +54,7 @@ const BETWEEN_MODELS: &[(&str, &str, &str)] = &[
 ];
 
 /// Edges that should not be: this list may only become shorter.
-const DEBTS: &[(&str, &str)] = &[
-    ("plot", "closures"),
-    ("plot", "model"),
-    ("plot", "models::coupled"),
-    ("output", "case"),
-    ("output", "compare"),
-    ("output", "model"),
-];
+const DEBTS: &[(&str, &str)] = &[];
 
 const LONGEST_FILE: usize = 400;
 

@@ -186,7 +186,7 @@ fn a_folder_that_is_not_this_comparison_is_refused() {
     assert!(err.contains("r holds a run, not a comparison"), "{err}");
     let (_, err) = exits(&scratch, 2, &["run", TWO, "--out", "c", "--force"]);
     assert!(err.contains("c holds a comparison, not a run"), "{err}");
-    assert_eq!(scratch.names("r").len(), 5);
+    assert_eq!(scratch.names("r").len(), 6);
     // what is not ours stays
     scratch.write("c/notes.txt", "mine");
     let (_, err) = exits(&scratch, 2, &[&other[..], &["--force"]].concat());

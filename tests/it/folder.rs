@@ -29,7 +29,7 @@ fn a_new_folder_holds_the_contract() {
     let scratch = Scratch::new();
     let out = "deep/er/out";
     scratch.bedload(["run", CASE, "--out", out, "--png"]).exits(0);
-    assert_eq!(scratch.names(out), ["case.toml", "figures", "profile.csv", "report.html", "summary.json"]);
+    assert_eq!(scratch.names(out), ["case.toml", "figures", "page.json", "profile.csv", "report.html", "summary.json"]);
     let summary = scratch.summary(out);
     let keys: Vec<&str> = summary.as_object().unwrap().keys().map(String::as_str).collect();
     let wanted = "format status case model results balances validity regularisation cost provenance";

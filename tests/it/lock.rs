@@ -246,6 +246,6 @@ fn a_folder_below_one_that_takes_no_files_is_locked_inside() {
     let output = command(&run);
     assert!(output.status.success(), "{output:?}");
     assert_eq!(scratch.names("closed"), ["out"]);
-    assert_eq!(scratch.names("closed/out"), ["case.toml", "profile.csv", "report.html", "summary.json"]);
+    assert_eq!(scratch.names("closed/out"), ["case.toml", "page.json", "profile.csv", "report.html", "summary.json"]);
     scratch.shell("chmod 755 closed").exits(0);
 }

@@ -8,7 +8,7 @@ use bedload::case::{Case, CaseError};
 use bedload::model::{OnMesh, Problem};
 use bedload::models::two_fluid::{State, TwoFluid};
 use bedload::plot::{Page, profile_figures, report_html};
-use bedload::result::{Cost, Outcome, Provenance, Summary};
+use bedload::result::{Cost, Figure, Outcome, Provenance, Summary};
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use serde_json::Map;
 
@@ -101,14 +101,19 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
     };
     let stored: Result<Summary, _> = serde_json::from_str(&summary.to_json().to_string());
     require!(stored.as_ref().is_ok_and(|s| *s == summary), "the summary does not read back: {:?}", stored.err());
-    let figures = outcome.profile.as_ref().map(|p| profile_figures(p, &summary)).unwrap_or_default();
-    let (equations, resolved) = (problem.describe().equations, case.resolved());
+    let mut figures = outcome.profile.as_ref().map(|p| profile_figures(p, &summary)).unwrap_or_default();
+    for figure in &outcome.figures {
+        let stored = serde_json::to_string(figure).and_then(|text| serde_json::from_str::<Figure>(&text));
+        require!(stored.as_ref().is_ok_and(|s| s == figure), "{} does not read back: {:?}", figure.stem, stored.err());
+    }
+    figures.extend(outcome.figures.iter().cloned());
+    let resolved = case.resolved();
     let page = report_html(&Page {
         summary: &summary,
         figures: &figures,
         picture: None,
         motion: None,
-        equations: &equations,
+        statement: &outcome.statement,
         case_toml: &resolved,
         notes: &[],
     });

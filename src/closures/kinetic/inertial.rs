@@ -21,6 +21,9 @@ use crate::closures::friction::{MuI, mu_i::INERTIAL_RANGE};
 use crate::closures::{Info, Standing};
 use crate::numerics::dual::Real;
 
+/// Solid fraction at rest of phi(I): Maurin, Chauchat & Frey (2016).
+pub const PHI_C: f64 = 0.61;
+
 /// Catalogue entry.
 pub static INFO: Info = Info {
     family: "granular",

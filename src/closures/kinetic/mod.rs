@@ -14,7 +14,7 @@ pub mod static_friction;
 pub use drag_work::DragWork;
 pub use elastic::{Elastic, JohnsonJackson};
 pub use granular::{FRICTIONAL_COLLISIONAL, FrictionalCollisional, GarzoDufty, Granular, Kinetic, Limit};
-pub use inertial::Inertial;
+pub use inertial::{Inertial, PHI_C};
 pub use radial::Radial;
 pub use restitution::Dissipation;
 pub use saltation::Saltation;

@@ -10,6 +10,7 @@ pub mod case;
 mod direction;
 mod exchange;
 mod felt;
+mod figures;
 mod hold;
 mod limits;
 mod outcome;
@@ -20,6 +21,7 @@ mod scene;
 mod study;
 #[cfg(test)]
 mod tests;
+mod theory;
 
 pub use case::FluidScheme;
 pub use exchange::Exchange;

@@ -2,6 +2,7 @@
 
 use super::hold::Hold;
 use super::run::Run;
+use super::theory;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
 use crate::closures::drag::dallavalle_grain::RANGE as HINDRANCE_RANGE;
 use crate::dem::budget;
@@ -112,6 +113,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
         }
         made.push(&q::U_FLUID_STDERR, errors(0))?;
         made.push(&q::TAU_REYNOLDS_STDERR, errors(1))?;
+        theory::push(flow, &mut made)?;
         table = Some(made);
     }
     let mut series = None;

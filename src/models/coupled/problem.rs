@@ -1,7 +1,7 @@
 //! Problems of grains in a fluid.
 
 use super::case::{CoupledDiscrete, CoupledTables, FluidScheme};
-use super::{advice, equations, run, study};
+use super::{advice, equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::contact::{Contact, linear_spring};
 use crate::closures::drag::{DallavalleGrain, GrainDrag, dallavalle_grain};
@@ -13,7 +13,7 @@ use crate::dem::drive::accepts;
 use crate::dem::{Bottom, GrainBed};
 use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
 use crate::result::Context;
-use crate::result::{CheckpointError, Failure, Outcome};
+use crate::result::{CheckpointError, Failure, Figure, Outcome};
 
 /// Grains in a fluid that flows over them. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -182,6 +182,10 @@ impl Solve for Coupled {
 
     fn study(&self) -> StudyPlan {
         study::plan(self)
+    }
+
+    fn figures(&self, name: &str, outcome: &Outcome) -> Vec<Figure> {
+        outcome.profile.as_ref().map(|profile| figures::figures(name, profile)).unwrap_or_default()
     }
 
     fn cells(&self) -> usize {

@@ -207,12 +207,12 @@ fn field(flow: &CavityFlow, cavity: &Cavity, psi: &[f64], stresses: &[f64]) -> F
         up,
         places: nodes.clone().map(|n| (y[n % across] * flow.h, z[n / across] * flow.h)).collect(),
         columns: vec![
-            ("speed_m_s", nodes.clone().map(velocity).map(|(u, w)| u.hypot(w) * flow.lid).collect()),
-            ("u_m_s", nodes.clone().map(|n| velocity(n).0 * flow.lid).collect()),
-            ("w_m_s", nodes.clone().map(|n| velocity(n).1 * flow.lid).collect()),
-            ("unyielded", nodes.clone().map(|n| around(n, &|s| f64::from(u8::from(s < 1.0)))).collect()),
-            ("stress_over_yield", nodes.map(|n| around(n, &|s| s.min(LARGE))).collect()),
-            ("stream_function_m2_s", psi.iter().map(|p| p * flow.lid * flow.h).collect()),
+            ("speed_m_s".into(), nodes.clone().map(velocity).map(|(u, w)| u.hypot(w) * flow.lid).collect()),
+            ("u_m_s".into(), nodes.clone().map(|n| velocity(n).0 * flow.lid).collect()),
+            ("w_m_s".into(), nodes.clone().map(|n| velocity(n).1 * flow.lid).collect()),
+            ("unyielded".into(), nodes.clone().map(|n| around(n, &|s| f64::from(u8::from(s < 1.0)))).collect()),
+            ("stress_over_yield".into(), nodes.map(|n| around(n, &|s| s.min(LARGE))).collect()),
+            ("stream_function_m2_s".into(), psi.iter().map(|p| p * flow.lid * flow.h).collect()),
         ],
     }
 }

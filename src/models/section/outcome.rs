@@ -276,10 +276,11 @@ fn field(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Field {
         let (y, z) = divided.mesh.position(node);
         (y * flow.h, z * flow.h)
     };
-    let mut columns = vec![(q::U_MIXTURE.name, si(divided.velocity(x))), ("unyielded", numbers.unyielded.clone())];
-    columns.extend(numbers.stress.clone().map(|stress| ("stress_over_yield", stress)));
+    let mut columns =
+        vec![(q::U_MIXTURE.name.into(), si(divided.velocity(x))), ("unyielded".into(), numbers.unyielded.clone())];
+    columns.extend(numbers.stress.clone().map(|stress| ("stress_over_yield".into(), stress)));
     if matches!(&flow.contents, Contents::Bed(bed) if bed.drag.is_some()) {
-        columns.push((q::U_PARTICLE.name, si(divided.grains(x))));
+        columns.push((q::U_PARTICLE.name.into(), si(divided.grains(x))));
     }
     Field { across, up, places: (0..divided.mesh.nodes()).map(place).collect(), columns }
 }

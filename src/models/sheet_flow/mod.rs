@@ -9,6 +9,7 @@ pub mod bed;
 pub mod case;
 pub mod column;
 mod equations;
+mod figures;
 pub mod flow;
 pub mod iteration;
 pub mod layers;

@@ -1,7 +1,7 @@
 //! A turbulent flow over a bed that shears: the two-layer sheet flow.
 
 use super::case::{BedReading, SheetFlowTables, SheetMethod, SheetSmoothing};
-use super::{equations, run, study};
+use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::case::tables::SlopeDefinition;
 use crate::closures::Info;
@@ -19,7 +19,7 @@ use crate::model::{
 };
 use crate::result::Context;
 use crate::result::quantity as q;
-use crate::result::{Failure, Outcome};
+use crate::result::{Failure, Figure, Outcome};
 use crate::units::significant;
 
 /// A sheet flow. All values SI.
@@ -252,6 +252,10 @@ impl Model for OnMesh<SheetFlow> {
 impl Solve for OnMesh<SheetFlow> {
     fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
         run(&self.problem, self.cells, context.watch)
+    }
+
+    fn figures(&self, name: &str, outcome: &Outcome) -> Vec<Figure> {
+        figures::figures(name, outcome)
     }
 
     fn describe(&self) -> Description {

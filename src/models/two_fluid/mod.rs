@@ -9,6 +9,7 @@ pub mod case;
 pub mod cell;
 mod equations;
 pub mod face;
+mod figures;
 mod in_time;
 pub mod laws;
 pub mod levels;

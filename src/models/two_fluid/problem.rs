@@ -1,7 +1,7 @@
 //! Problems of grains and fluid as two fluids.
 
 use super::case::{FluidStress, State, TwoFluidTables};
-use super::{equations, run, study};
+use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::{DallavalleGrain, GrainDrag};
@@ -13,7 +13,7 @@ use crate::model::{
     TurbulentScene,
 };
 use crate::result::Context;
-use crate::result::{Failure, Outcome};
+use crate::result::{Failure, Figure, Outcome};
 use crate::units::significant;
 
 /// A two-fluid flow. All values SI.
@@ -213,6 +213,10 @@ impl Model for OnMesh<TwoFluid> {
 impl Solve for OnMesh<TwoFluid> {
     fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
         run(&self.problem, self.cells, context.watch)
+    }
+
+    fn figures(&self, name: &str, outcome: &Outcome) -> Vec<Figure> {
+        figures::figures(name, outcome)
     }
 
     fn describe(&self) -> Description {

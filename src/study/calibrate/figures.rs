@@ -2,9 +2,10 @@
 
 use super::judge::Found;
 use super::{Column, Target};
-use crate::plot::{Axis, Curve, Dash, Figure, Marker, Panel, Trace, shared_figures};
+use crate::plot::{Trace, shared_figures};
 use crate::result::Profile;
 use crate::result::quantity;
+use crate::result::{Axis, Curve, Dash, Figure, Marker, Panel};
 use crate::study::Row;
 use crate::units::readable_unit;
 

@@ -1,17 +1,20 @@
 //! Figures that only a sheet flow has: who carries the stress and where the grains go, within the sheet, and which time rules
 //! the rearrangement of the grains.
 
-use super::profile::sentence;
-use super::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
+use crate::result::figure::sentence;
 use crate::result::quantity::{self, Quantity};
-use crate::result::{Profile, Summary};
+use crate::result::{Axis, Curve, Dash, Figure, Level, Marker, Outcome, Panel, Profile};
+use crate::units::significant;
 
-/// The figures of a sheet flow; none for other flows.
-pub(super) fn sheet_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
-    let result = |quantity: &Quantity| summary.results.get(quantity.name);
-    let (Some(thickness), Some(bottom), Some(shields)) =
-        (result(&quantity::SHEET_THICKNESS), result(&quantity::YIELD_LEVEL), result(&quantity::SHIELDS))
-    else {
+/// The figures of the run `name`; none without a sheet.
+pub(super) fn figures(name: &str, outcome: &Outcome) -> Vec<Figure> {
+    let result = |quantity: &Quantity| outcome.results.get(quantity.name);
+    let (Some(profile), Some(thickness), Some(bottom), Some(shields)) = (
+        outcome.profile.as_ref(),
+        result(&quantity::SHEET_THICKNESS),
+        result(&quantity::YIELD_LEVEL),
+        result(&quantity::SHIELDS),
+    ) else {
         return Vec::new();
     };
     let scene = Scene { profile, z: profile.axis(), bottom, thickness };
@@ -20,9 +23,9 @@ pub(super) fn sheet_figures(profile: &Profile, summary: &Summary) -> Vec<Figure>
     let tau_b = interface.and_then(|row| scene.total(row + 1)).filter(|tau| *tau > 0.0);
     let mut figures = Vec::new();
     if let Some(tau_b) = tau_b {
-        figures.push(scene.repartition(&summary.case, tau_b));
+        figures.push(scene.repartition(name, tau_b));
     }
-    figures.extend(scene.regimes(&summary.case, shields));
+    figures.extend(scene.regimes(name, shields));
     figures
 }
 
@@ -121,7 +124,7 @@ impl Scene<'_> {
             caption: format!(
                 "{case}: rearrangement of the moving grains at a Shields number of {}, free fall at the upper right, \
                  turbulent at the upper left, viscous below.",
-                crate::units::significant(shields, 3)
+                significant(shields, 3)
             ),
             y: Axis::log("St", ""),
             panels: vec![Panel { x: Axis::log("r", ""), curves: borders.into_iter().chain([cells]).collect() }],

@@ -1,7 +1,9 @@
 //! What a figure is, before anyone draws it: panels side by side over one shared vertical axis.
 
+use serde::{Deserialize, Serialize};
+
 /// One figure: panels that share their vertical axis, with levels drawn across all of them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Figure {
     /// name of its file, without extension: `profiles`
     pub stem: String,
@@ -18,7 +20,7 @@ pub struct Figure {
 }
 
 /// One frame with its own horizontal axis.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Panel {
     /// the horizontal axis
     pub x: Axis,
@@ -27,7 +29,7 @@ pub struct Panel {
 }
 
 /// What an axis measures, in the unit in which the data are given.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Axis {
     /// `velocity`
     pub title: String,
@@ -40,7 +42,8 @@ pub struct Axis {
 }
 
 /// How an axis divides its length.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Scale {
     /// equal lengths are equal differences
     Linear,
@@ -49,7 +52,8 @@ pub enum Scale {
 }
 
 /// A series of points, joined, marked, or both.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
 pub struct Curve {
     /// its entry in the legend; empty for none
     pub name: String,
@@ -68,7 +72,8 @@ pub struct Curve {
 }
 
 /// Pattern of a line: with the colour it tells curves apart, without colour it still does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Dash {
     /// unbroken
     Solid,
@@ -81,7 +86,8 @@ pub enum Dash {
 }
 
 /// Shape of an open symbol.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Marker {
     /// circle
     Circle,
@@ -94,7 +100,7 @@ pub enum Marker {
 }
 
 /// A labelled horizontal line.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Level {
     /// where, in the unit of the vertical axis
     pub y: f64,
@@ -111,7 +117,7 @@ impl Axis {
 
     /// The elevation, whose ends the data decide.
     #[must_use]
-    pub(super) fn elevation(unit: &str) -> Self {
+    pub fn elevation(unit: &str) -> Self {
         Self::linear(ELEVATION, unit)
     }
 
@@ -123,7 +129,7 @@ impl Axis {
 
     /// Whether `value` has a place on the axis.
     #[must_use]
-    pub(super) fn holds(&self, value: f64) -> bool {
+    pub fn holds(&self, value: f64) -> bool {
         value.abs() < LARGEST && (self.scale == Scale::Linear || value > 1.0 / LARGEST)
     }
 }
@@ -132,22 +138,39 @@ impl Axis {
 const LARGEST: f64 = 1e280;
 
 /// Title of the vertical axis of profiles.
-pub(super) const ELEVATION: &str = "elevation z";
+pub const ELEVATION: &str = "elevation z";
 
 impl Figure {
     /// Whether its vertical axis is the elevation.
-    pub(super) fn is_over_elevation(&self) -> bool {
+    #[must_use]
+    pub fn is_over_elevation(&self) -> bool {
         self.y.title == ELEVATION
     }
 
+    /// The same without numbers that are none: they break a line as a gap does.
+    #[must_use]
+    pub fn finite(mut self) -> Self {
+        for curve in self.panels.iter_mut().flat_map(|panel| &mut panel.curves) {
+            for point in &mut curve.points {
+                *point = point.filter(|(x, y)| x.is_finite() && y.is_finite());
+            }
+            for error in &mut curve.errors {
+                *error = error.filter(|e| e.is_finite());
+            }
+        }
+        self
+    }
+
     /// The letter of a panel: `(a)`; empty if there is only one panel.
-    pub(super) fn letter(&self, panel: usize) -> String {
+    #[must_use]
+    pub fn letter(&self, panel: usize) -> String {
         let letter = u8::try_from(panel).ok().and_then(|i| b'a'.checked_add(i)).map_or('?', char::from);
         if self.panels.len() > 1 { format!("({letter})") } else { String::new() }
     }
 
     /// The unbroken pieces of a curve, with the points that both axes hold.
-    pub(super) fn pieces<'a>(&self, panel: &Panel, curve: &'a Curve) -> Vec<Vec<(f64, f64)>> {
+    #[must_use]
+    pub fn pieces<'a>(&self, panel: &Panel, curve: &'a Curve) -> Vec<Vec<(f64, f64)>> {
         let visible = |p: &'a Option<(f64, f64)>| p.filter(|&(x, y)| panel.x.holds(x) && self.y.holds(y));
         let mut pieces = vec![Vec::new()];
         for point in curve.points.iter().map(visible) {
@@ -159,6 +182,16 @@ impl Figure {
         pieces.retain(|piece| !piece.is_empty());
         pieces
     }
+}
+
+/// What the panels show, lettered where there are several: `(a) velocity, (b) shear stress`.
+#[must_use]
+pub fn sentence(panels: &[Panel]) -> String {
+    let lettered = |(i, panel): (usize, &Panel)| match panels.len() {
+        1 => panel.x.title.clone(),
+        _ => format!("({}) {}", char::from(b'a'.saturating_add(i as u8)), panel.x.title),
+    };
+    panels.iter().enumerate().map(lettered).collect::<Vec<_>>().join(", ")
 }
 
 #[cfg(test)]
