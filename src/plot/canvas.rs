@@ -78,7 +78,7 @@ impl<DB: DrawingBackend> Canvas<'_, DB> {
         let grid = simplified(&points.iter().map(|p| (p.0 * scale, p.1 * scale)).collect::<Vec<_>>(), 0.04 * scale);
         let style = self.style(stroke.role, stroke.dash).stroke_width((stroke.width * scale).round().max(1.0) as u32);
         let pattern = if self.medium.dashes_later { &[] } else { theme::pattern(stroke.dash) };
-        for piece in dashes(&grid, pattern, scale) {
+        for piece in dashes(&grid, pattern, scale).iter().flat_map(|stroke| without_spikes(stroke)) {
             let piece = piece.iter().map(|&p| rounded(p)).collect::<Vec<_>>();
             self.area.draw(&PathElement::new(piece, style)).map_err(PlotError::drawing)?;
         }
@@ -244,6 +244,24 @@ fn dashes(points: &[Point], pattern: &[f64], scale: f64) -> Vec<Vec<Point>> {
     strokes
 }
 
+/// A line cut where it turns back: the join of a bitmap backend would reach far beyond such a corner.
+fn without_spikes(points: &[Point]) -> Vec<Vec<Point>> {
+    let mut pieces = vec![Vec::new()];
+    for (i, &point) in points.iter().enumerate() {
+        let sharp = i.checked_sub(1).and_then(|before| Some((points[before], *points.get(i + 1)?))).is_some_and(
+            |(before, after)| {
+                let (a, b) = ((point.0 - before.0, point.1 - before.1), (after.0 - point.0, after.1 - point.1));
+                a.0 * b.0 + a.1 * b.1 < 0.0
+            },
+        );
+        pieces.iter_mut().rev().take(1).for_each(|piece| piece.push(point));
+        if sharp {
+            pieces.push(vec![point]);
+        }
+    }
+    pieces
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -261,6 +279,14 @@ mod tests {
         let strokes = dashes(&[(0.0, 0.0), (3.0, 0.0), (3.0, 7.0)], &[4.0, 2.0], 1.0);
         assert_eq!(strokes, [vec![(0.0, 0.0), (3.0, 0.0), (3.0, 1.0)], vec![(3.0, 3.0), (3.0, 7.0)]]);
         assert_eq!(dashes(&[(0.0, 0.0), (9.0, 0.0)], &[], 1.0), [[(0.0, 0.0), (9.0, 0.0)]]);
+    }
+
+    #[test]
+    fn a_line_that_turns_back_is_cut_and_a_right_angle_is_not() {
+        let there = [(0.0, 0.0), (10.0, 0.0), (1.0, 1.0), (1.0, 9.0)];
+        assert_eq!(without_spikes(&there), [&there[..2], &there[1..]]);
+        let corner = [(0.0, 0.0), (10.0, 0.0), (10.0, 5.0)];
+        assert_eq!(without_spikes(&corner), [corner]);
     }
 
     #[test]

@@ -151,27 +151,36 @@ impl Grid {
         })
     }
 
-    /// Velocities on a coarse raster, the longest as long as its meshes are wide.
+    /// Velocities on a coarse raster, each with its middle where it is taken, the longest nearly as long as the meshes are wide:
+    /// none reaches its neighbour or the wall.
     fn arrows(&self) -> Vec<(Place, Place)> {
         const RASTER: usize = 16;
         let Some((u, w)) = &self.vectors else { return Vec::new() };
-        let (columns, rows) = (self.spread(RASTER, false), self.spread(RASTER, true));
-        let most = u.iter().zip(w).fold(0.0_f64, |m, (u, w)| m.max(u.hypot(*w)));
-        let top = self.places.iter().fold(0.0_f64, |m, p| m.max(p.1));
-        let scale = 1.6 * top / (RASTER as f64 * most);
-        let nodes = rows.iter().flat_map(|j| columns.iter().map(move |i| j * self.across + i));
-        nodes.map(|n| (self.places[n], (self.places[n].0 + scale * u[n], self.places[n].1 + scale * w[n]))).collect()
+        let ends = self.places.iter().fold((0.0_f64, 0.0_f64), |(y, z), p| (y.max(p.0), z.max(p.1)));
+        let raster = |high: f64| (0..RASTER).map(move |k| high * (k as f64 + 0.5) / RASTER as f64);
+        let places: Vec<Place> = raster(ends.1).flat_map(|z| raster(ends.0).map(move |y| (y, z))).collect();
+        let found = places.iter().filter_map(|&place| Some((place, (self.at(u, place)?, self.at(w, place)?))));
+        let found: Vec<(Place, Place)> = found.collect();
+        let most = found.iter().fold(0.0_f64, |m, (_, (u, w))| m.max(u.hypot(*w)));
+        let half = 0.5 * 0.95 * ends.0.min(ends.1) / (RASTER as f64 * most);
+        let arrow = |((y, z), (u, w)): (Place, Place)| ((y - half * u, z - half * w), (y + half * u, z + half * w));
+        found.into_iter().map(arrow).collect()
     }
 
-    /// The inner lines of nodes nearest to `n` equal spaces.
-    fn spread(&self, n: usize, upwards: bool) -> Vec<usize> {
-        let count = if upwards { self.up() } else { self.across };
-        let at = |k: usize| if upwards { self.places[k * self.across].1 } else { self.places[k].0 };
-        let near =
-            |x: f64| (1..count - 1).min_by(|a, b| (at(*a) - x).abs().total_cmp(&(at(*b) - x).abs())).unwrap_or(1);
-        let mut lines: Vec<usize> = (0..n).map(|k| near(at(count - 1) * (k as f64 + 0.5) / n as f64)).collect();
-        lines.dedup();
-        lines
+    /// A field between the nodes of straight lines, bilinear.
+    fn at(&self, values: &[f64], (y, z): Place) -> Option<f64> {
+        let columns: Vec<f64> = self.places[..self.across].iter().map(|p| p.0).collect();
+        let rows: Vec<f64> = self.places.iter().step_by(self.across).map(|p| p.1).collect();
+        let between = |lines: &[f64], x: f64| {
+            let i = lines.partition_point(|line| *line <= x).checked_sub(1)?.min(lines.len().checked_sub(2)?);
+            Some((i, (x - lines[i]) / (lines[i + 1] - lines[i])))
+        };
+        let ((i, s), (j, t)) = (between(&columns, y)?, between(&rows, z)?);
+        let along = |j: usize| {
+            let n = j * self.across + i;
+            values[n] + s * (values[n + 1] - values[n])
+        };
+        Some(along(j) + t * (along(j + 1) - along(j)))
     }
 
     fn of(field: &Field) -> Option<Self> {
@@ -259,5 +268,29 @@ mod tests {
         let again = Field::read(field.csv().as_bytes()).unwrap().unwrap();
         assert_eq!((again.across, again.up, again.csv()), (3, 3, field.csv()));
         assert!(Field::read("column,row,y_m,z_m\n".as_bytes()).unwrap().is_none());
+    }
+
+    #[test]
+    fn arrows_are_of_the_field_and_reach_neither_each_other_nor_the_wall() {
+        // u = z, w = -y on uneven lines.
+        let (y, z) = ([0.0, 0.1, 0.5, 1.0], [0.0, 0.7, 1.0]);
+        let places: Vec<Place> = z.iter().flat_map(|&z| y.iter().map(move |&y| (y, z))).collect();
+        let of = |value: &dyn Fn(&Place) -> f64| places.iter().map(value).collect::<Vec<f64>>();
+        let columns = vec![
+            ("speed_m_s".into(), of(&|p| p.0.hypot(p.1))),
+            ("unyielded".into(), of(&|_| 0.0)),
+            ("u_m_s".into(), of(&|p| p.1)),
+            ("w_m_s".into(), of(&|p| -p.0)),
+        ];
+        let field = Field { across: 4, up: 3, places: places.clone(), columns };
+        let arrows = Grid::of(&field).unwrap().arrows();
+        assert_eq!(arrows.len(), 256);
+        let long = arrows.iter().map(|(a, b)| (b.0 - a.0).hypot(b.1 - a.1)).fold(0.0, f64::max);
+        assert!((long - 0.95 / 16.0).abs() < 1e-12, "{long}");
+        for (a, b) in &arrows {
+            let middle = (0.5 * (a.0 + b.0), 0.5 * (a.1 + b.1));
+            assert!(((b.0 - a.0) * middle.0 + (b.1 - a.1) * middle.1).abs() < 1e-12, "normal to the radius");
+            assert!([a.0, a.1, b.0, b.1].iter().all(|x| (0.0..=1.0).contains(x)));
+        }
     }
 }
