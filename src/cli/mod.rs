@@ -10,6 +10,7 @@ mod converge;
 mod explain;
 mod interrupt;
 mod list;
+mod man;
 mod new;
 mod progress;
 mod report;
@@ -110,6 +111,8 @@ verbs! {
     Schema(schema::Schema),
     /// Print a completion script for a shell
     Completions(completions::Completions),
+    /// Print the manual, or write a page for each verb
+    Man(man::Man),
 }
 
 /// A case and what to change in it.

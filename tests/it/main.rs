@@ -13,6 +13,7 @@ mod compare;
 mod converge;
 mod coupled;
 mod docs;
+mod features;
 mod folder;
 mod full_disk;
 mod goldens;
