@@ -24,7 +24,5 @@ mod tests;
 mod theory;
 
 pub use case::FluidScheme;
-pub use exchange::Exchange;
-pub use felt::{Dragged, Felt};
 pub use problem::{Coupled, Surface};
-pub use run::{equations, run};
+use run::{equations, run};

@@ -90,7 +90,7 @@ pub fn carried(laws: &Laws, x: &Unknowns) -> [f64; 5] {
 /// Residuals and their derivatives.
 #[derive(Clone, Debug)]
 pub struct Linear {
-    residual: Vec<f64>,
+    pub(super) residual: Vec<f64>,
     /// derivatives of the rows of each cell by the unknowns of the cell below, its own, those of the cell above
     blocks: Vec<[[[f64; SIZE]; SIZE]; 3]>,
     matrix: Banded,
@@ -205,12 +205,6 @@ impl Linear {
             velocity: 1.0,
             mobilised: vec![Mobilised::default(); cells],
         }
-    }
-
-    /// Residuals of all rows.
-    #[must_use]
-    pub fn residual(&self) -> &[f64] {
-        &self.residual
     }
 
     /// The derivatives along the direction that `of` gives to each unknown of each cell.
