@@ -4,6 +4,7 @@ use crate::numerics::thomas::Unsolved;
 
 /// A column that cannot be set up, or a step that was not made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ColumnError {
     /// Fewer than two faces.
     #[error("a column needs at least 2 faces, not {faces}")]

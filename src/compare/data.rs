@@ -37,6 +37,7 @@ pub struct DataError {
 
 /// What is wrong with a profile CSV.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum DataFault {
     /// it cannot be read, or is not text
     #[error("cannot be read: {0}")]

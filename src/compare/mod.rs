@@ -32,6 +32,7 @@ use crate::result::{Outcome, Profile, Results, Status, Summary, TableError, Vali
 /// What a subject is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Kind {
     /// a case, run for the comparison
     Case,
@@ -68,6 +69,7 @@ pub struct Subject {
 
 /// Why there is nothing to compare, or not like this.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum CompareError {
     /// a profile CSV that cannot be used
     #[error(transparent)]
@@ -217,6 +219,7 @@ pub struct NormRow {
 
 /// Everything that a comparison has to say.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Comparison {
     /// where z is 0
     pub align: Align,

@@ -3,6 +3,7 @@
 
 /// A flow that more than one model answers.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Flow {
     /// a laminar flow over a bed of grains
     Laminar(LaminarScene),
@@ -164,6 +165,7 @@ impl TurbulentScene {
 
 /// What an answer costs, in its order of magnitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Effort {
     /// a closed form
     None,
@@ -203,6 +205,7 @@ pub struct Term {
 
 /// How a term is judged.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum TermTest {
     /// by solving the case with and without it
     Solve {

@@ -8,6 +8,7 @@ use super::{Provenance, Quantity};
 /// State of a run folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Status {
     /// being computed, or interrupted without a word
     Running,
@@ -32,6 +33,7 @@ impl std::fmt::Display for Status {
 
 /// A result: its value in SI, the standard error of a mean, and why it is missing where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Reported {
     /// SI value; `null` where it is undefined
     pub value: Option<f64>,
@@ -140,6 +142,7 @@ pub struct Validity {
 
 /// What it cost.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Cost {
     /// wall time of the solver [s]
     pub solve_s: f64,

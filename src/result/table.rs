@@ -19,6 +19,7 @@ pub struct Table {
 
 /// Why a table cannot be made or read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum TableError {
     /// a value that is neither finite nor declared undefined
     #[error("{column} is not finite in row {row}")]

@@ -70,6 +70,7 @@ pub struct Point {
 
 /// One point with what came of it.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Row {
     /// the point
     pub point: Point,
@@ -125,6 +126,7 @@ pub struct Numbers {
 
 /// Why a study cannot be made. Points that fail are rows, not errors.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum StudyError {
     /// the model has nothing of the kind to vary
     #[error("{model} has no {over} to converge over: only {allowed} have")]
