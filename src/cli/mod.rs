@@ -1,4 +1,6 @@
 //! The command line: one file per verb. Answers go to standard output, everything else to standard error.
+// The doc lines of arguments are their help, which is plain text.
+#![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_html_tags)]
 
 mod advise;
 mod calibrate;

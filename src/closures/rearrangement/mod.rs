@@ -4,7 +4,7 @@
 //! |---|---|
 //! | free fall | `d sqrt(rho_p/P_p)` |
 //! | viscous | `eta/P_p` |
-//! | turbulent | `d sqrt(rho_f C/P_p)`, `C = (4/3)(0.3 + 18.3/Re)`, `Re = rho_f |U - u_p| d/eta` |
+//! | turbulent | `d sqrt(rho_f C/P_p)`, `C = (4/3)(0.3 + 18.3/Re)`, `Re = rho_f \|U - u_p\| d/eta` |
 //!
 //! The largest of the three counts. The source writes the dimensional drag coefficient under the last root; only a pure
 //! number gives a time, and C is that of the same drag law for a single grain at the local slip. `St` is the ratio of the

@@ -38,6 +38,6 @@ pub mod bench {
     pub use super::flow::Flow;
     pub use super::iteration::Pace;
     pub use super::layers::Layers;
-    pub use super::newton::Column;
+    pub use super::newton::{Column, Stalled};
     pub use super::solve::{REST, solve};
 }

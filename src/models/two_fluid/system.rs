@@ -306,7 +306,7 @@ impl Linear {
         largest
     }
 
-    /// Newton's step in units of [`unit`], after [`Self::norm`].
+    /// Newton's step in units of [`unit()`], after [`Self::norm`].
     ///
     /// # Errors
     /// [`Singular`] if the matrix is.
@@ -318,7 +318,7 @@ impl Linear {
     }
 
     /// Solves with the factors of [`Self::factor`], in place: from a side in the units of the residuals to unknowns in those of
-    /// [`unit`].
+    /// [`unit()`].
     pub fn solve(&self, side: &mut [f64]) {
         side.iter_mut().zip(&self.scales).for_each(|(x, scale)| *x /= scale);
         self.matrix.solve(side);
