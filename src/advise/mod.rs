@@ -21,7 +21,7 @@ use crate::units::significant;
 pub struct Number {
     /// what it is, with its symbol
     pub name: &'static str,
-    /// its value [1]
+    /// its value \[1]
     pub value: f64,
     /// what it says here
     pub says: String,

@@ -22,7 +22,7 @@ use crate::result::{Profile, Results, TableError, Values, read_columns};
 
 /// Ending of the header of a column of standard errors.
 const SIGMA: &str = "_err";
-/// Labels up to this length [characters] stand in legends; longer ones leave that to the name of the file.
+/// Labels up to this length \[characters] stand in legends; longer ones leave that to the name of the file.
 const LONGEST_NAME: usize = 32;
 
 /// A profile CSV that cannot be used.

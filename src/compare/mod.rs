@@ -55,7 +55,7 @@ pub struct Subject {
     pub source: String,
     /// further comments of the data
     pub notes: Vec<String>,
-    /// columns over z [m], in SI
+    /// columns over z \[m], in SI
     pub profile: Profile,
     /// one sigma of some of its columns, on the same levels
     pub errors: Option<Profile>,
@@ -63,7 +63,7 @@ pub struct Subject {
     pub results: Results,
     /// closures that were used outside their range
     pub validity: Vec<Validity>,
-    /// time that its solver took, if it was run for the comparison [s]
+    /// time that its solver took, if it was run for the comparison \[s]
     pub solve_s: f64,
 }
 
@@ -165,7 +165,7 @@ impl CompareError {
 }
 
 impl Subject {
-    /// A case that has been run: `source` as the user named it, `solve_s` what its solver took [s].
+    /// A case that has been run: `source` as the user named it, `solve_s` what its solver took \[s].
     ///
     /// # Errors
     /// [`CompareError::NoProfile`].

@@ -139,7 +139,7 @@ pub trait Solve: Any + Debug + Send + Sync {
 pub struct SteadyDrive {
     /// unit of the velocity, of which round-off may leave a part where nothing moves [m/s]
     pub velocity_scale: f64,
-    /// time at which the flow is looked at [s]; `None` for a steady one
+    /// time at which the flow is looked at \[s]; `None` for a steady one
     pub at_s: Option<f64>,
     /// what a user can change where the fluid goes the other way
     pub hint: &'static str,

@@ -41,7 +41,7 @@ impl Rung {
 
 /// The solution of a problem under the exact yield, to round-off.
 pub trait ClosedForm: Send {
-    /// Its numbers [SI].
+    /// Its numbers \[SI].
     fn results(&self) -> &Results;
     /// The velocity that is measured, at the levels of `run`.
     fn at(&self, run: &Profile) -> Option<Profile>;

@@ -11,7 +11,7 @@ use super::layout::Layout;
 use super::{PlotError, theme};
 use crate::result::Figure;
 
-/// Width of the file [pixels].
+/// Width of the file \[pixels].
 pub(super) const WIDTH: u32 = 1600;
 /// Pixels drawn per pixel written, in each direction.
 pub(super) const FINER: u32 = 3;

@@ -65,7 +65,7 @@ pub enum Regime {
 /// What the times need to know. Any consistent units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
-    /// diameter [m]
+    /// diameter \[m]
     pub d: f64,
     /// density [kg/m3]
     pub rho_p: f64,
@@ -76,7 +76,7 @@ pub struct Grain {
 }
 
 impl Grain {
-    /// Inverse times [1/s] of free, viscous and turbulent fall under the pressure `p` [Pa] at the slip `w` [m/s].
+    /// Inverse times [1/s] of free, viscous and turbulent fall under the pressure `p` \[Pa] at the slip `w` [m/s].
     #[must_use]
     pub fn rates<T: Real>(&self, p: T, w: T) -> [T; 3] {
         let inverse = dallavalle::inverse_number(w, (self.rho_f, self.eta), self.d);
@@ -86,7 +86,7 @@ impl Grain {
 }
 
 impl Rearrangement {
-    /// The inverse of the time that counts [1/s], under the pressure `p` [Pa] at the slip `w` [m/s].
+    /// The inverse of the time that counts [1/s], under the pressure `p` \[Pa] at the slip `w` [m/s].
     #[must_use]
     pub fn rate<T: Real>(&self, grain: &Grain, p: T, w: T) -> T {
         match self {

@@ -56,7 +56,7 @@ impl<'a> Assessment<'a> {
         (0..self.z.len()).filter(asked).collect()
     }
 
-    /// Slope over one diameter `d` [m].
+    /// Slope over one diameter `d` \[m].
     fn slope(&self, quantity: &Quantity, row: usize, d: f64) -> Option<f64> {
         let dz = self.z.get(1)? - self.z[0];
         let half = ((0.5 * d / dz).round() as usize).max(1);

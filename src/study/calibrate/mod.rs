@@ -54,7 +54,7 @@ pub struct Request {
     pub fit: Vec<String>,
     /// columns of the data that are fitted; empty for all that the model has
     pub columns: Vec<String>,
-    /// one sigma for values without one: a number, or `column=number` [SI]
+    /// one sigma for values without one: a number, or `column=number` \[SI]
     pub sigma: Vec<String>,
 }
 
