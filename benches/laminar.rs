@@ -8,7 +8,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use bedload::closures::regularisation::{Regularisation, Smoothing};
-use bedload::models::laminar::bed::{Bed, Nodes};
+use bedload::models::laminar::bench::{Bed, Nodes};
 
 const REPEATS: usize = 201;
 

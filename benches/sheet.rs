@@ -10,12 +10,7 @@ use std::time::Instant;
 
 use bedload::model::{OnMesh, read};
 use bedload::models::sheet_flow::SheetFlow;
-use bedload::models::sheet_flow::column::Setting;
-use bedload::models::sheet_flow::flow::Flow;
-use bedload::models::sheet_flow::iteration::Pace;
-use bedload::models::sheet_flow::layers::Layers;
-use bedload::models::sheet_flow::newton::Column;
-use bedload::models::sheet_flow::solve::{REST, solve};
+use bedload::models::sheet_flow::bench::{Column, Flow, Layers, Pace, REST, Setting, solve};
 
 const CASES: [&str; 6] = [
     "sheet_1d_sumer82",

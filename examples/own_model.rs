@@ -10,7 +10,6 @@ use bedload::case::tables::{Fluid, Grid};
 use bedload::cli;
 use bedload::closures::{Info, Standing};
 use bedload::model::{Focus, Meshes, ONE_KIND, StudyPlan, number};
-use bedload::output::Mode;
 use bedload::prelude::*;
 use bedload::result::quantity as q;
 use bedload::study::{Conducted, Observer, Settings, conduct, converge, sweep};
@@ -114,7 +113,7 @@ pub struct Film {
 }
 
 impl Model for Film {
-    const INFO: ModelInfo = ModelInfo { name: "thin-film", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("thin-film");
     type Tables = FilmTables;
 
     fn build(tables: &FilmTables, _: &mut Faults) -> Option<Self> {
@@ -147,7 +146,7 @@ impl Solve for Film {
 
     fn describe(&self) -> Description {
         let equations = format!("0 = dτ/dz + {} Pa/m;  {}\n", self.pull, POWER.equation);
-        Description { form: None, equations, laws: vec![&POWER] }
+        Description::new(equations, vec![&POWER])
     }
 
     fn cells(&self) -> usize {
@@ -157,18 +156,8 @@ impl Solve for Film {
     fn study(&self) -> StudyPlan {
         const NUMBERS: &[bedload::model::Number] = &[number(&q::DISCHARGE, "discharge")];
         let meshes = Meshes { cells: &[20, 40, 80, 160], reference: 640, changes: &[], kinds: ONE_KIND, remarks: &[] };
-        StudyPlan {
-            focus: Some(Focus {
-                velocity: &q::U_MIXTURE,
-                velocity_unit: self.height * self.law.shear_rate(self.pull * self.height, self.fluid.viscosity),
-                numbers: NUMBERS,
-                bed: false,
-                paper_rms: false,
-                sizes: None,
-                meshes: Some(meshes),
-            }),
-            ..StudyPlan::default()
-        }
+        let unit = self.height * self.law.shear_rate(self.pull * self.height, self.fluid.viscosity);
+        Focus::on_meshes(&q::U_MIXTURE, unit, NUMBERS, meshes).into()
     }
 }
 
@@ -202,20 +191,14 @@ pub fn studies(folder: &Path) -> Result<[Conducted; 2], Box<dyn Error>> {
     let (registry, file) = (registry(), folder.join("film.toml"));
     std::fs::write(&file, CASE)?;
     let case = file.display().to_string();
-    let settings = |name: &str| Settings {
-        registry: &registry,
-        out: Some(folder.join(name)),
-        mode: Mode::default(),
-        threads: 1,
-        png: false,
-        command: "own_model".into(),
-        observer: &Nobody,
+    let settings = |name: &str| {
+        let mut settings = Settings::new(&registry, "own_model", &Nobody);
+        (settings.out, settings.threads) = (Some(folder.join(name)), 1);
+        settings
     };
     let (plan, judge) = sweep::plan(&case, &[], &["flow.sine=0.02,0.04,0.08".into()])?;
     let swept = conduct(&plan, &settings("sweep"), Box::new(|_, _| (Vec::new(), judge)))?;
-    let over = converge::Over::Mesh;
-    let request = converge::Request { case, overrides: Vec::new(), over, reference: None, half_decades: false };
-    let (plan, judge) = converge::plan(&registry, &request)?;
+    let (plan, judge) = converge::plan(&registry, &converge::Request::new(&case, converge::Over::Mesh))?;
     let converged = conduct(&plan, &settings("converge"), Box::new(|_, _| (Vec::new(), judge)))?;
     Ok([swept, converged])
 }

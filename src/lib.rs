@@ -13,14 +13,14 @@
 //! | [`units`], [`numerics`], [`runtime`] | quantities as text; methods that know no physics; cost and interruption |
 //! | [`closures`], [`result`] | laws; profiles, series, summaries |
 //! | [`case`] | case files: text, places in it, schema, diagnostics. The only module that knows TOML, and no model |
-//! | [`column`], [`dem`] | the fluid of one dimension among whatever grains; grains one by one |
+//! | [`mod@column`], [`dem`] | the fluid of one dimension among whatever grains; grains one by one |
 //! | [`model`] | what a model is: the trait, the registry, the checked problem |
 //! | [`models`] | the models, one folder each |
-//! | [`plot`], [`compare`], [`output`] | figures and pages; runs and measured profiles side by side; folders |
-//! | [`study`] | one case at many points: `converge`, `sweep`, `chart`, `stability`, `calibrate` |
-//! | [`advise`], [`validate`] | the least model that a flow needs; what the cases claim, run again |
+//! | `plot`, `compare`, `output` | figures and pages; runs and measured profiles side by side; folders |
+//! | `study` | one case at many points: `converge`, `sweep`, `chart`, `stability`, `calibrate` |
+//! | [`advise`], `validate` | the least model that a flow needs; what the cases claim, run again |
 //! | [`prelude`] | what a user of the library writes with |
-//! | [`cli`] | the command line, one file per verb |
+//! | `cli` | the command line, one file per verb |
 //!
 //! `--no-default-features` leaves the solvers: no figures, folders and studies (feature `plot`), no command line (feature `cli`).
 //!

@@ -92,6 +92,7 @@ pub struct Unit {
 
 /// Why a text is not the quantity that was asked for.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum UnitError {
     /// no number at the start
     #[error("no number at the start of \"{text}\"")]

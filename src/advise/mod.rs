@@ -21,7 +21,7 @@ use crate::units::significant;
 pub struct Number {
     /// what it is, with its symbol
     pub name: &'static str,
-    /// its value [1]
+    /// its value \[1]
     pub value: f64,
     /// what it says here
     pub says: String,
@@ -59,6 +59,7 @@ pub struct Least {
 
 /// What is said of a scene.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Advice {
     /// numbers of the scene
     pub numbers: Vec<Number>,
@@ -70,6 +71,7 @@ pub struct Advice {
 
 /// Why there is no advice.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum AdviseError {
     /// the case is wrong
     #[error(transparent)]

@@ -80,7 +80,7 @@ pub(super) fn definition(entries: &[(String, Node)], schema: &Value, path: &str)
 }
 
 impl Case {
-    /// What `--set` takes to give the number `key` of this case the value `value` [SI]: a slope that is an angle stays one.
+    /// What `--set` takes to give the number `key` of this case the value `value` \[SI]: a slope that is an angle stays one.
     #[must_use]
     pub fn setting(&self, key: &str, value: f64) -> String {
         let unit = if self.angles.iter().any(|angle| angle == key) { " rad" } else { "" };

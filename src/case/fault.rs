@@ -168,9 +168,9 @@ pub enum Fault {
     /// A bed that fills the flow.
     #[error("the bed level {level} m is not below the flow height {height} m")]
     NoRoomForFlow {
-        /// bed level [m]
+        /// bed level \[m]
         level: f64,
-        /// flow height [m]
+        /// flow height \[m]
         height: f64,
     },
     /// Grains that float.
@@ -192,9 +192,9 @@ pub enum Fault {
     /// A bed thinner than its grains.
     #[error("the bed is {level} m thick, less than one grain of {diameter} m")]
     ThinnerThanAGrain {
-        /// bed level [m]
+        /// bed level \[m]
         level: f64,
-        /// grain diameter [m]
+        /// grain diameter \[m]
         diameter: f64,
     },
     /// mu_2 below mu_s.
@@ -283,9 +283,9 @@ pub enum Fault {
     /// A wall rougher than the flow is high.
     #[error("the roughness length k_s/30 = {length} m is not below the flow height {height} m")]
     RoughnessAboveFlow {
-        /// roughness length [m]
+        /// roughness length \[m]
         length: f64,
-        /// flow height [m]
+        /// flow height \[m]
         height: f64,
     },
     /// A check of something that is not reported.

@@ -11,7 +11,7 @@ use super::fault::{Fault, Violation};
 use super::kind::{Content, Kind};
 use super::{Case, CaseError, Kinds, angle, shipped};
 
-/// Largest accepted case file [bytes].
+/// Largest accepted case file \[bytes].
 const LIMIT: u64 = 1 << 20;
 
 impl Case {

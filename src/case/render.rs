@@ -6,7 +6,7 @@ use crate::result::ErrorReport;
 
 /// More violations than this are counted, not shown.
 pub(super) const SHOWN: usize = 40;
-/// Messages longer than this [characters] lose their middle: a word of the file may be of any length.
+/// Messages longer than this \[characters] lose their middle: a word of the file may be of any length.
 const LONG_MESSAGE: usize = 400;
 
 impl CaseError {

@@ -1,4 +1,6 @@
 //! The command line: one file per verb. Answers go to standard output, everything else to standard error.
+// The doc lines of arguments are their help, which is plain text.
+#![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_html_tags)]
 
 mod advise;
 mod calibrate;
@@ -10,6 +12,7 @@ mod converge;
 mod explain;
 mod interrupt;
 mod list;
+mod man;
 mod new;
 mod progress;
 mod report;
@@ -110,6 +113,8 @@ verbs! {
     Schema(schema::Schema),
     /// Print a completion script for a shell
     Completions(completions::Completions),
+    /// Print the manual, or write a page for each verb
+    Man(man::Man),
 }
 
 /// A case and what to change in it.

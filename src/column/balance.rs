@@ -11,7 +11,7 @@ pub struct Step {
     pub balance: Balance,
 }
 
-/// Momentum of the fluid over the whole column, per area of the bed [Pa]. Each entry is summed from the terms of the cells, at
+/// Momentum of the fluid over the whole column, per area of the bed \[Pa]. Each entry is summed from the terms of the cells, at
 /// the velocity after the step:
 /// `inertia = top - bottom - grains_share + drive + drag + force - side_walls + error`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -35,7 +35,7 @@ pub struct Balance {
 }
 
 impl Balance {
-    /// What does not add up [Pa].
+    /// What does not add up \[Pa].
     #[must_use]
     pub fn error(&self) -> f64 {
         let gained = self.top - self.bottom - self.grains_share + self.drive + self.drag + self.force;

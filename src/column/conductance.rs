@@ -18,13 +18,13 @@ pub(super) struct Conductance {
     pub viscous: Vec<f64>,
     /// R/(|dU| dU) [Pa s2/m2], one per face
     pub turbulent: Vec<f64>,
-    /// mixing lengths at the faces, as published [m]
+    /// mixing lengths at the faces, as published \[m]
     pub lengths: Vec<f64>,
     /// share of the viscous force that the fluid takes, and of u_f in U, one per cell
     pub share: Vec<f64>,
     /// velocity below the first and above the last face [m/s]
     pub outside: [f64; 2],
-    /// stress given at the first and at the last face [Pa]
+    /// stress given at the first and at the last face \[Pa]
     pub given: [f64; 2],
     /// least derivative of the stress at face 0 [Pa s/m], for the Jacobian only: a rough wall at rest holds nothing
     pub least: f64,
@@ -131,15 +131,15 @@ struct Half {
 /// The stresses at one face and their derivatives.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Face {
-    /// viscous stress [Pa]
+    /// viscous stress \[Pa]
     pub tau: f64,
-    /// turbulent stress [Pa]
+    /// turbulent stress \[Pa]
     pub reynolds: f64,
     /// d tau/d dU [Pa s/m]
     pub viscous: f64,
     /// d R/d dU [Pa s/m]
     pub turbulent: f64,
-    /// size of what was subtracted to form them [Pa]: round-off goes with it
+    /// size of what was subtracted to form them \[Pa]: round-off goes with it
     pub resolution: f64,
 }
 

@@ -4,6 +4,7 @@ use crate::numerics::thomas::Unsolved;
 
 /// A column that cannot be set up, or a step that was not made.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ColumnError {
     /// Fewer than two faces.
     #[error("a column needs at least 2 faces, not {faces}")]
@@ -16,9 +17,9 @@ pub enum ColumnError {
     FacesNotAscending {
         /// the upper of the two faces, from 0
         index: usize,
-        /// the lower face [m]
+        /// the lower face \[m]
         below: f64,
-        /// the upper face [m]
+        /// the upper face \[m]
         above: f64,
     },
     /// An array that is not as long as the column has cells.
@@ -46,7 +47,7 @@ pub enum ColumnError {
     Cell {
         /// the quantity, with its unit
         what: &'static str,
-        /// centre of the cell [m]
+        /// centre of the cell \[m]
         z: f64,
         /// its value
         value: f64,
@@ -56,9 +57,9 @@ pub enum ColumnError {
     /// A roughness length that reaches the centre of the lowest cell.
     #[error("the roughness length {z_0} m is not below the centre of the lowest cell, {distance} m above the wall")]
     RoughnessAboveCell {
-        /// roughness length [m]
+        /// roughness length \[m]
         z_0: f64,
-        /// distance of the centre from the wall [m]
+        /// distance of the centre from the wall \[m]
         distance: f64,
     },
     /// A steady velocity that nothing holds.
@@ -77,7 +78,7 @@ pub enum ColumnError {
     NotFinite {
         /// iteration, from 0
         iteration: usize,
-        /// centre of the first such cell [m]
+        /// centre of the first such cell \[m]
         z: f64,
     },
     /// The iteration did not reach its tolerance.
@@ -89,7 +90,7 @@ pub enum ColumnError {
         residual: f64,
         /// wanted residual
         tolerance: f64,
-        /// centre of the cell of the largest residual [m]
+        /// centre of the cell of the largest residual \[m]
         z: f64,
     },
 }

@@ -137,21 +137,21 @@ impl FluidColumn {
         Ok(())
     }
 
-    /// Viscous stress at the faces after the last step [Pa], per area of the whole: the fluid takes its divergence, in the
+    /// Viscous stress at the faces after the last step \[Pa], per area of the whole: the fluid takes its divergence, in the
     /// mixture form its share eps of it.
     #[must_use]
     pub fn tau_viscous(&self) -> &[f64] {
         &self.tau
     }
 
-    /// Reynolds stress at the faces after the last step [Pa], per area of the whole. The stress of a rough wall and a stress given
+    /// Reynolds stress at the faces after the last step \[Pa], per area of the whole. The stress of a rough wall and a stress given
     /// at a boundary stand here too.
     #[must_use]
     pub fn tau_reynolds(&self) -> &[f64] {
         &self.reynolds
     }
 
-    /// Mixing length at the faces in the last step [m].
+    /// Mixing length at the faces in the last step \[m].
     #[must_use]
     pub fn mixing_length(&self) -> &[f64] {
         &self.conductance.lengths
@@ -175,7 +175,7 @@ impl FluidColumn {
         Ok(())
     }
 
-    /// Advances the velocity by `dt` [s], or to the steady state if `dt` is infinite. Backward Euler: order 1 in time, any step
+    /// Advances the velocity by `dt` \[s], or to the steady state if `dt` is infinite. Backward Euler: order 1 in time, any step
     /// is stable.
     ///
     /// # Errors
@@ -201,7 +201,7 @@ impl FluidColumn {
         result
     }
 
-    /// Advances the velocity by `dt` [s] with everything taken at the start of the step. Forward Euler: stable for steps below
+    /// Advances the velocity by `dt` \[s] with everything taken at the start of the step. Forward Euler: stable for steps below
     /// [`Self::explicit_limit`] alone, and there to show it.
     ///
     /// # Errors
@@ -225,7 +225,7 @@ impl FluidColumn {
         Ok(Step { iterations: 1, residual: 0.0, balance })
     }
 
-    /// Longest stable explicit step at the velocity of the last one [s]: 2 over the largest sum of magnitudes in a row of the
+    /// Longest stable explicit step at the velocity of the last one \[s]: 2 over the largest sum of magnitudes in a row of the
     /// derivatives over the mass of its cell. That is h^2/(2 nu) for diffusion alone and 2 eps rho_f/beta for a drag alone.
     #[must_use]
     pub fn explicit_limit(&self, medium: &Medium) -> f64 {
@@ -361,9 +361,9 @@ impl FluidColumn {
 /// Sums over the cells.
 #[derive(Clone, Copy)]
 struct Assembled {
-    /// largest force on any cell [Pa]
+    /// largest force on any cell \[Pa]
     scale: f64,
-    /// friction of the side walls [Pa]
+    /// friction of the side walls \[Pa]
     side_walls: f64,
 }
 

@@ -32,7 +32,7 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// `cells` equal cells from `bottom` [m] to `top` [m].
+    /// `cells` equal cells from `bottom` \[m] to `top` \[m].
     ///
     /// # Errors
     /// [`ColumnError`] if there is no cell, or the top is not above the bottom.
@@ -41,7 +41,7 @@ impl Grid {
         Self::from_faces((0..=cells).map(at).collect())
     }
 
-    /// The cells between the ascending `faces` [m].
+    /// The cells between the ascending `faces` \[m].
     ///
     /// # Errors
     /// [`ColumnError`] if there are fewer than two faces, or they do not ascend, or one is not finite.
@@ -69,25 +69,25 @@ impl Grid {
         self.widths.len()
     }
 
-    /// Elevations of the faces [m], one more than cells.
+    /// Elevations of the faces \[m], one more than cells.
     #[must_use]
     pub fn faces(&self) -> &[f64] {
         &self.faces
     }
 
-    /// Elevations of the centres [m].
+    /// Elevations of the centres \[m].
     #[must_use]
     pub fn centres(&self) -> &[f64] {
         &self.centres
     }
 
-    /// Widths of the cells [m].
+    /// Widths of the cells \[m].
     #[must_use]
     pub fn widths(&self) -> &[f64] {
         &self.widths
     }
 
-    /// Distances [m] over which the velocity differs at each face: between two centres, or from a centre to the wall.
+    /// Distances \[m] over which the velocity differs at each face: between two centres, or from a centre to the wall.
     #[must_use]
     pub fn distances(&self) -> &[f64] {
         &self.distances

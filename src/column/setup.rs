@@ -49,7 +49,7 @@ pub struct Setup {
     pub mixing_length: MixingLength,
     /// friction of the side walls
     pub side_wall: SideWall,
-    /// distance of the side walls W [m]; infinite without them
+    /// distance of the side walls W \[m]; infinite without them
     pub width: f64,
     /// end of the iteration
     pub newton: Newton,
@@ -88,7 +88,7 @@ pub enum Bottom {
     NoSlip,
     /// A fully rough wall, `u = (u_*/kappa) ln(z/z_0)` between face 0 and the centre of cell 0, z counted from face 0.
     Rough {
-        /// roughness length [m]
+        /// roughness length \[m]
         z_0: f64,
         /// von Karman's constant
         kappa: f64,
@@ -97,10 +97,10 @@ pub enum Bottom {
     Flow {
         /// velocity there [m/s]: the one whose gradient the viscous form takes, of the mixture or of the fluid
         velocity: f64,
-        /// mixing length there [m], from what lies below; the law adds to it
+        /// mixing length there \[m], from what lies below; the law adds to it
         mixing_length: f64,
     },
-    /// A stress T(0) [Pa], positive where the fluid drags what lies below. All of it acts on the fluid.
+    /// A stress T(0) \[Pa], positive where the fluid drags what lies below. All of it acts on the fluid.
     Stress(f64),
 }
 
@@ -109,7 +109,7 @@ pub enum Bottom {
 pub enum Top {
     /// No stress.
     FreeSurface,
-    /// A stress T(H) [Pa], positive where it drives the fluid, negative where a lid holds it back. All of it acts on the fluid.
+    /// A stress T(H) \[Pa], positive where it drives the fluid, negative where a lid holds it back. All of it acts on the fluid.
     Stress(f64),
     /// A smooth lid at rest; turbulence vanishes at it.
     NoSlip,
@@ -134,7 +134,7 @@ impl Forcing {
         !matches!((self.bottom, self.top), (Bottom::Stress(_), Top::FreeSurface | Top::Stress(_)))
     }
 
-    /// `lowest` is the distance [m] of the lowest centre from the bottom.
+    /// `lowest` is the distance \[m] of the lowest centre from the bottom.
     pub(super) fn check(&self, lowest: f64) -> Result<(), ColumnError> {
         finite("drive [Pa/m]", self.drive)?;
         match self.bottom {

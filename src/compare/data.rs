@@ -22,7 +22,7 @@ use crate::result::{Profile, Results, TableError, Values, read_columns};
 
 /// Ending of the header of a column of standard errors.
 const SIGMA: &str = "_err";
-/// Labels up to this length [characters] stand in legends; longer ones leave that to the name of the file.
+/// Labels up to this length \[characters] stand in legends; longer ones leave that to the name of the file.
 const LONGEST_NAME: usize = 32;
 
 /// A profile CSV that cannot be used.
@@ -37,6 +37,7 @@ pub struct DataError {
 
 /// What is wrong with a profile CSV.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum DataFault {
     /// it cannot be read, or is not text
     #[error("cannot be read: {0}")]

@@ -34,11 +34,11 @@ impl Align {
 /// The units by which `--scale` divides one subject. Every unit of the catalogue is a product of powers of the three.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Scales {
-    /// flow height H [m]
+    /// flow height H \[m]
     pub length_m: f64,
     /// mean velocity U_m [m/s], if it is reported
     pub velocity_m_s: Option<f64>,
-    /// fluid shear stress at the bed level, at the lowest level where there is no bed [Pa], if the profile has one
+    /// fluid shear stress at the bed level, at the lowest level where there is no bed \[Pa], if the profile has one
     pub stress_pa: Option<f64>,
 }
 
@@ -95,7 +95,7 @@ impl Scales {
 const SCALE: &str = "--scale";
 const BED: &str = "--align bed";
 
-/// Fluid shear stress, viscous and turbulent, at the bed level [Pa]; at the lowest level where no bed level is reported.
+/// Fluid shear stress, viscous and turbulent, at the bed level \[Pa]; at the lowest level where no bed level is reported.
 fn bed_stress(subject: &Subject) -> Option<f64> {
     let z = match subject.results.get(quantity::BED_LEVEL.name) {
         Some(z) => z,
@@ -110,7 +110,7 @@ fn bed_stress(subject: &Subject) -> Option<f64> {
 /// A subject in the frame of the comparison.
 #[derive(Clone, Debug)]
 pub struct View {
-    /// what was taken from z [m]
+    /// what was taken from z \[m]
     pub shift_m: f64,
     /// what the values were divided by
     pub scales: Option<Scales>,

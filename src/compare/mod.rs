@@ -32,6 +32,7 @@ use crate::result::{Outcome, Profile, Results, Status, Summary, TableError, Vali
 /// What a subject is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Kind {
     /// a case, run for the comparison
     Case,
@@ -54,7 +55,7 @@ pub struct Subject {
     pub source: String,
     /// further comments of the data
     pub notes: Vec<String>,
-    /// columns over z [m], in SI
+    /// columns over z \[m], in SI
     pub profile: Profile,
     /// one sigma of some of its columns, on the same levels
     pub errors: Option<Profile>,
@@ -62,12 +63,13 @@ pub struct Subject {
     pub results: Results,
     /// closures that were used outside their range
     pub validity: Vec<Validity>,
-    /// time that its solver took, if it was run for the comparison [s]
+    /// time that its solver took, if it was run for the comparison \[s]
     pub solve_s: f64,
 }
 
 /// Why there is nothing to compare, or not like this.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum CompareError {
     /// a profile CSV that cannot be used
     #[error(transparent)]
@@ -163,7 +165,7 @@ impl CompareError {
 }
 
 impl Subject {
-    /// A case that has been run: `source` as the user named it, `solve_s` what its solver took [s].
+    /// A case that has been run: `source` as the user named it, `solve_s` what its solver took \[s].
     ///
     /// # Errors
     /// [`CompareError::NoProfile`].
@@ -217,6 +219,7 @@ pub struct NormRow {
 
 /// Everything that a comparison has to say.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Comparison {
     /// where z is 0
     pub align: Align,

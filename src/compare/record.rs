@@ -9,7 +9,8 @@ use super::{Align, Comparison, NormRow, Side};
 use crate::result::{Cost, Provenance, Status};
 
 /// What the user asked for: two comparisons with equal requests are the same comparison.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Request {
     /// cases and run folders, as typed
     pub subjects: Vec<String>,

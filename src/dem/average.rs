@@ -13,7 +13,7 @@ use super::engine::Engine;
 use super::grains::Point;
 use super::law::ContactLaw;
 
-/// Volume of the part of a sphere of radius `r` around 0 that lies between `low` and `high` [m3].
+/// Volume of the part of a sphere of radius `r` around 0 that lies between `low` and `high` \[m3].
 #[must_use]
 pub fn slice_volume(r: f64, low: f64, high: f64) -> f64 {
     let (a, b) = (low.clamp(-r, r), high.clamp(-r, r));
@@ -73,7 +73,7 @@ pub type Mean = Option<(f64, Option<f64>)>;
 /// The averaged profile, one entry per slice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Averaged {
-    /// elevation of the middle [m]
+    /// elevation of the middle \[m]
     pub z: Vec<f64>,
     /// solid fraction
     pub phi: Vec<Mean>,
@@ -81,9 +81,9 @@ pub struct Averaged {
     pub velocity: Vec<Mean>,
     /// granular temperature [m2/s2]
     pub temperature: Vec<Mean>,
-    /// shear stress, positive where the upper layer drags the lower one [Pa]
+    /// shear stress, positive where the upper layer drags the lower one \[Pa]
     pub shear: Vec<Mean>,
-    /// normal stress [Pa]
+    /// normal stress \[Pa]
     pub pressure: Vec<Mean>,
     /// flux of fluctuation energy upward [W/m2]
     pub flux: Vec<Mean>,
@@ -106,7 +106,7 @@ impl Averaged {
 }
 
 impl Averages {
-    /// Nothing yet: slices of `thickness` [m] from `bottom` to `top` [m] over `area` [m2], in `blocks` blocks.
+    /// Nothing yet: slices of `thickness` \[m] from `bottom` to `top` \[m] over `area` \[m2], in `blocks` blocks.
     #[must_use]
     pub fn new(bottom: f64, top: f64, thickness: f64, area: f64, density: f64, blocks: usize) -> Self {
         let slices = (((top - bottom) / thickness).ceil().max(1.0) as usize).min(1_000_000);
@@ -152,7 +152,7 @@ impl Averages {
         used.map(|block| Self { blocks: vec![block.clone()], ..*self }.profile()).collect()
     }
 
-    /// Adds the present state to block `block`; `drag` is the force of the fluid on a grain by its place [N].
+    /// Adds the present state to block `block`; `drag` is the force of the fluid on a grain by its place \[N].
     pub fn sample<C: ContactLaw>(&mut self, engine: &Engine<C>, block: usize, drag: impl Fn(usize) -> Point) {
         let (bottom, thickness) = (self.bottom, self.thickness);
         let last = self.blocks.len() - 1;

@@ -7,17 +7,17 @@ use super::grains::Point;
 pub struct Seen {
     /// its name: place in the order of the scene
     pub id: u32,
-    /// centre [m]
+    /// centre \[m]
     pub position: Point,
     /// velocity half a step before [m/s]
     pub velocity: Point,
-    /// radius [m]
+    /// radius \[m]
     pub radius: f64,
 }
 
 /// A force on each grain, as a function of its own state.
 pub trait Body: Sync {
-    /// Force on a mobile grain [N].
+    /// Force on a mobile grain \[N].
     fn force(&self, grain: &Seen) -> Point;
 }
 
@@ -35,9 +35,9 @@ impl Body for Nothing {
 /// A layer that is pushed along the flow, in a fluid at rest that slows everything.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pushed {
-    /// force along x on grains above the level [N]
+    /// force along x on grains above the level \[N]
     pub force: f64,
-    /// the level [m]
+    /// the level \[m]
     pub above: f64,
     /// drag coefficient: force over minus velocity [kg/s]
     pub drag: f64,

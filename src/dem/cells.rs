@@ -25,7 +25,7 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// Puts the grains into cells of at least `reach` [m] and sorts them by cell, grains of one cell as they were.
+    /// Puts the grains into cells of at least `reach` \[m] and sorts them by cell, grains of one cell as they were.
     /// `order[new]` becomes the former place of each grain. Positions along a period are brought into it.
     pub fn sort(&mut self, grains: &mut Grains, domain: &Domain, reach: f64, order: &mut Vec<u32>) {
         wrap(grains, domain);

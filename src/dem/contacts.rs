@@ -17,15 +17,15 @@ pub struct Seen {
     pub second: Option<usize>,
     /// unit vector from the first to the second
     pub normal: Point,
-    /// distance of the centres, or of the centre from the wall [m]
+    /// distance of the centres, or of the centre from the wall \[m]
     pub distance: f64,
-    /// force on the second [N]; the first takes the opposite
+    /// force on the second \[N]; the first takes the opposite
     pub force: Point,
-    /// overlap [m]
+    /// overlap \[m]
     pub overlap: f64,
     /// overlap over the sum of the radii
     pub ratio: f64,
-    /// energy of both springs [J]
+    /// energy of both springs \[J]
     pub energy: f64,
 }
 
@@ -114,7 +114,7 @@ impl<C: ContactLaw> Engine<C> {
         Seen { first, second, normal: unit, distance, force, overlap, ratio: overlap / reach, energy }
     }
 
-    /// Energy of all springs at the present positions [J].
+    /// Energy of all springs at the present positions \[J].
     #[must_use]
     pub fn spring_energy(&self) -> f64 {
         self.contacts().map(|contact| contact.energy).sum()

@@ -7,7 +7,7 @@ use super::grains::Point;
 pub struct Wall {
     /// unit normal
     pub normal: Point,
-    /// distance of the plane from the origin along the normal [m]
+    /// distance of the plane from the origin along the normal \[m]
     pub offset: f64,
     /// velocity of its surface [m/s]
     pub velocity: Point,
@@ -18,7 +18,7 @@ pub struct Wall {
 /// Periods along x and y, and walls. Nothing bounds a direction that has neither.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Domain {
-    /// length of the period along x and y [m]
+    /// length of the period along x and y \[m]
     pub periods: [Option<f64>; 2],
     /// walls
     pub walls: Vec<Wall>,
@@ -37,7 +37,7 @@ impl Domain {
         self.periods.map(|p| p.map_or(f64::INFINITY, |l| 0.5 * l))
     }
 
-    /// b - a, of the nearest images [m].
+    /// b - a, of the nearest images \[m].
     #[must_use]
     pub fn apart(&self, a: Point, b: Point) -> Point {
         let mut d = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
@@ -60,7 +60,7 @@ impl Wall {
         Self { normal, offset, velocity: [0.0; 3], rough: true }
     }
 
-    /// Distance of a point from the plane [m], positive on the side of the grains.
+    /// Distance of a point from the plane \[m], positive on the side of the grains.
     #[must_use]
     pub fn distance(&self, x: Point) -> f64 {
         x[0] * self.normal[0] + x[1] * self.normal[1] + x[2] * self.normal[2] - self.offset

@@ -78,7 +78,7 @@ pub trait Flow<'a>: Sized {
     fn engine(&self) -> &Engine<LinearSpring>;
     /// advances in all, and made so far
     fn advances(&self) -> (u64, u64);
-    /// time of one advance [s]
+    /// time of one advance \[s]
     fn period(&self) -> f64;
 
     /// What is to be done before the first advance.

@@ -18,20 +18,20 @@ use crate::runtime::pool::{Parts, Pool};
 /// How the grains are moved.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
-    /// time step [s]
+    /// time step \[s]
     pub dt: f64,
     /// gravity [m/s2]
     pub gravity: Point,
-    /// listed pairs are nearer than the sum of their radii and this [m]
+    /// listed pairs are nearer than the sum of their radii and this \[m]
     pub skin: f64,
     /// largest accepted overlap over the sum of the radii
     pub largest_overlap: f64,
-    /// elevation below which a grain is lost [m]
+    /// elevation below which a grain is lost \[m]
     pub lowest: f64,
 }
 
 impl Settings {
-    /// Defaults for grains of diameter `d` [m]: skin 0.15 d, overlaps to 0.2, nothing below.
+    /// Defaults for grains of diameter `d` \[m]: skin 0.15 d, overlaps to 0.2, nothing below.
     #[must_use]
     pub fn new(dt: f64, gravity: Point, d: f64) -> Self {
         Self { dt, gravity, skin: 0.15 * d, largest_overlap: 0.2, lowest: f64::NEG_INFINITY }
@@ -50,7 +50,7 @@ pub struct Engine<C> {
     pub(super) loads: Vec<Load>,
     /// positions when the list was made
     pub(super) reference: Vec<Row>,
-    /// bound of the way of any grain since the list was made [m]
+    /// bound of the way of any grain since the list was made \[m]
     pub(super) way: f64,
     pub(super) step: u64,
     pub(super) ledger: Ledger,
@@ -235,7 +235,7 @@ impl<C: ContactLaw> Engine<C> {
         });
     }
 
-    /// Longest way of a grain since the list was made [m].
+    /// Longest way of a grain since the list was made \[m].
     fn farthest(&self) -> f64 {
         let squared =
             |(now, then): (&Row, &Row)| (0..3).map(|k| (now.0[k] - then.0[k]) * (now.0[k] - then.0[k])).sum::<f64>();
@@ -316,7 +316,7 @@ impl<C: ContactLaw> Engine<C> {
         self.settings.gravity = gravity;
     }
 
-    /// Holds the grains whose centres are below `level` [m], and lets the others go, but for the first `fixed` of the scene. What held
+    /// Holds the grains whose centres are below `level` \[m], and lets the others go, but for the first `fixed` of the scene. What held
     /// grains had of kinetic energy and momentum goes to the ground; springs between two of them are forgotten.
     /// Whether any was held or let go.
     pub fn hold_below(&mut self, level: f64, fixed: usize) -> bool {

@@ -10,7 +10,7 @@ pub struct Place {
     pub grain: u32,
     /// steps made
     pub step: u64,
-    /// centre of the grain [m]
+    /// centre of the grain \[m]
     pub position: Point,
 }
 
@@ -47,7 +47,7 @@ pub enum GrainError {
     Lost {
         /// the grain
         place: Place,
-        /// lowest accepted elevation [m]
+        /// lowest accepted elevation \[m]
         lowest: f64,
     },
     /// A time step that the contacts do not bear.
@@ -57,9 +57,9 @@ pub enum GrainError {
     StepTooLong {
         /// the grain that sets the limit
         place: Place,
-        /// the step [s]
+        /// the step \[s]
         step_s: f64,
-        /// the limit [s]
+        /// the limit \[s]
         limit_s: f64,
         /// its contacts
         contacts: usize,
@@ -69,9 +69,9 @@ pub enum GrainError {
         "the time step {step_s:.3e} s is beyond 2 m/(df/du) = {limit_s:.3e} s, the stability limit of the drag on a grain"
     )]
     DragStep {
-        /// the step [s]
+        /// the step \[s]
         step_s: f64,
-        /// the limit [s]
+        /// the limit \[s]
         limit_s: f64,
     },
     /// A step of the fluid that forward Euler does not bear.
@@ -79,9 +79,9 @@ pub enum GrainError {
         "the explicit step of the fluid {step_s:.3e} s is beyond its stability limit {limit_s:.3e} s at this velocity"
     )]
     FluidStep {
-        /// the step [s]
+        /// the step \[s]
         step_s: f64,
-        /// the limit [s]
+        /// the limit \[s]
         limit_s: f64,
     },
     /// A period in which a grain could touch another one twice.
@@ -91,9 +91,9 @@ pub enum GrainError {
     PeriodTooShort {
         /// x or y
         axis: char,
-        /// its length [m]
+        /// its length \[m]
         length: f64,
-        /// least length [m]
+        /// least length \[m]
         least: f64,
     },
     /// More grains than the list can name, or none.

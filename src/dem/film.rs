@@ -20,12 +20,12 @@ const GRAINS: usize = 10_000;
 pub struct Film {
     /// steps between two pictures
     every: u64,
-    /// time between two pictures [s]
+    /// time between two pictures \[s]
     interval: f64,
     radius: f64,
     length: f64,
     shown: f64,
-    /// elevations that can be shown [m]
+    /// elevations that can be shown \[m]
     heights: [f64; 2],
     now: Take,
     full: Take,
@@ -34,7 +34,7 @@ pub struct Film {
 /// Some grains in a few pictures.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Take {
-    /// time of the first picture [s]
+    /// time of the first picture \[s]
     begin: f64,
     /// names of the grains, the farthest first
     ids: Vec<u32>,
@@ -43,7 +43,7 @@ struct Take {
 }
 
 impl Film {
-    /// A film of `bed`, whose grains are seen every `step` [s].
+    /// A film of `bed`, whose grains are seen every `step` \[s].
     #[must_use]
     pub fn new(bed: &GrainBed, grains: &Grains, step: f64) -> Self {
         let ends = (0..grains.len()).map(|i| grains.position(i)[2]);
@@ -62,7 +62,7 @@ impl Film {
         steps.is_multiple_of(self.every)
     }
 
-    /// Takes a picture at the time `time` [s].
+    /// Takes a picture at the time `time` \[s].
     pub fn see(&mut self, grains: &Grains, time: f64) {
         if self.now.ids.is_empty() {
             self.now = Take { begin: time, ids: self.nearest(grains), places: Vec::new() };

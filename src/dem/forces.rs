@@ -11,7 +11,7 @@ use super::law::{Contact, ContactLaw};
 use super::tile::{BLOCK, Found, GROUP, Tile};
 use super::walls;
 
-/// Pairs of a block that touch: the pair, its slot, and the separation [m]; or grains at a wall, and their distance [m]
+/// Pairs of a block that touch: the pair, its slot, and the separation \[m]; or grains at a wall, and their distance \[m]
 /// in place of the squared separation. One a thread.
 #[derive(Clone, Debug)]
 pub struct Touching {
@@ -60,7 +60,7 @@ pub struct Scene<'a, C> {
     pub domain: &'a Domain,
     /// the grains
     pub grains: &'a Grains,
-    /// time that the springs follow [s]; 0 leaves them as they are
+    /// time that the springs follow \[s]; 0 leaves them as they are
     pub dt: f64,
 }
 

@@ -10,13 +10,13 @@ pub type Point = [f64; 3];
 /// One sphere, as a scene describes it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
-    /// position of the centre [m]
+    /// position of the centre \[m]
     pub position: Point,
     /// velocity [m/s]
     pub velocity: Point,
     /// angular velocity [1/s]
     pub spin: Point,
-    /// radius [m]
+    /// radius \[m]
     pub radius: f64,
     /// density [kg/m3]
     pub density: f64,
@@ -31,7 +31,7 @@ impl Grain {
         Self { position, velocity: [0.0; 3], spin: [0.0; 3], radius, density, fixed: false }
     }
 
-    /// Mass [kg].
+    /// Mass \[kg].
     #[must_use]
     pub fn mass(&self) -> f64 {
         4.0 / 3.0 * PI * self.radius * self.radius * self.radius * self.density
@@ -44,9 +44,9 @@ pub const PADDING: usize = 3;
 /// All grains, one row of each kind a grain, sorted by cell at each rebuild of the list.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Grains {
-    /// x, y, z, radius [m]
+    /// x, y, z, radius \[m]
     pub positions: Vec<Row>,
-    /// velocity [m/s] and mass [kg]
+    /// velocity [m/s] and mass \[kg]
     pub velocities: Vec<Row>,
     /// radius times angular velocity [m/s] and inverse mass [1/kg], 0 for a fixed grain
     pub spins: Vec<Row>,
@@ -98,7 +98,7 @@ impl Grains {
         self.ids.is_empty()
     }
 
-    /// Centre of grain `i` [m].
+    /// Centre of grain `i` \[m].
     #[must_use]
     pub fn position(&self, i: usize) -> Point {
         let [x, y, z, _] = self.positions[i].0;
@@ -119,13 +119,13 @@ impl Grains {
         [x / r, y / r, z / r]
     }
 
-    /// Radius of grain `i` [m].
+    /// Radius of grain `i` \[m].
     #[must_use]
     pub fn radius(&self, i: usize) -> f64 {
         self.positions[i].0[3]
     }
 
-    /// Mass of grain `i` [kg].
+    /// Mass of grain `i` \[kg].
     #[must_use]
     pub fn mass(&self, i: usize) -> f64 {
         self.velocities[i].0[3]
@@ -137,7 +137,7 @@ impl Grains {
         self.spins[i].0[3] == 0.0
     }
 
-    /// Largest radius [m].
+    /// Largest radius \[m].
     #[must_use]
     pub fn largest_radius(&self) -> f64 {
         (0..self.len()).fold(0.0, |r, i| self.radius(i).max(r))
@@ -174,13 +174,13 @@ impl Grains {
         self.places().into_iter().map(one).collect()
     }
 
-    /// Kinetic energy of the mobile grains, translation and rotation [J].
+    /// Kinetic energy of the mobile grains, translation and rotation \[J].
     #[must_use]
     pub fn kinetic_energy(&self) -> f64 {
         (0..self.len()).filter(|&i| !self.is_fixed(i)).map(|i| self.kinetic_energy_of(i)).sum()
     }
 
-    /// Kinetic energy of grain `i` [J].
+    /// Kinetic energy of grain `i` \[J].
     #[must_use]
     pub fn kinetic_energy_of(&self, i: usize) -> f64 {
         let squared = |r: &Row| r.0[0] * r.0[0] + r.0[1] * r.0[1] + r.0[2] * r.0[2];

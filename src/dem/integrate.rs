@@ -11,7 +11,7 @@ use super::lanes::avx2::Four;
 use super::lanes::{Backend, Load, Quad, Row};
 use super::tile::Moved;
 
-/// Lengths of one step [s].
+/// Lengths of one step \[s].
 #[derive(Clone, Copy, Debug)]
 pub struct Lengths {
     /// of the kick: h, or h/2 to begin with

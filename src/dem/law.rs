@@ -9,7 +9,7 @@ use crate::numerics::root;
 /// A contact as the law sees it; the velocities are those of the second grain relative to the first at the contact.
 #[derive(Clone, Copy, Debug)]
 pub struct Contact<L> {
-    /// overlap [m], positive
+    /// overlap \[m], positive
     pub overlap: L,
     /// unit vector from the first to the second grain
     pub normal: Vector<L>,
@@ -17,7 +17,7 @@ pub struct Contact<L> {
     pub parting: L,
     /// tangential velocity [m/s]
     pub sliding: Vector<L>,
-    /// elongation of the tangential spring before this step [m]
+    /// elongation of the tangential spring before this step \[m]
     pub spring: Vector<L>,
     /// 1/m_1 + 1/m_2 [1/kg]; a fixed grain and a wall have 0
     pub inverse_mass: L,
@@ -26,23 +26,23 @@ pub struct Contact<L> {
 /// What the contact does to the second grain; the first takes the opposite.
 #[derive(Clone, Copy, Debug)]
 pub struct Response<L> {
-    /// repulsion along the normal [N]
+    /// repulsion along the normal \[N]
     pub normal: L,
-    /// tangential force [N]
+    /// tangential force \[N]
     pub tangential: Vector<L>,
-    /// elongation of the tangential spring after this step [m]
+    /// elongation of the tangential spring after this step \[m]
     pub spring: Vector<L>,
 }
 
 /// A law of contact, written once for any number of contacts at a time.
 pub trait ContactLaw: Copy + Send + Sync {
-    /// Force and new spring after a step of `dt` [s]; with `dt` = 0 the force as it stands.
+    /// Force and new spring after a step of `dt` \[s]; with `dt` = 0 the force as it stands.
     fn respond<L: Lanes>(&self, proof: L::Proof, contact: Contact<L>, dt: f64) -> Response<L>;
     /// Normal and tangential stiffness [N/m].
     fn stiffness(&self) -> (f64, f64);
     /// Damping ratio c/(2 sqrt(m k_n)) of the normal contact.
     fn damping_ratio(&self) -> f64;
-    /// The law for a time step of `dt` [s], of mobile grains with inverse masses from and to `masses` [1/kg].
+    /// The law for a time step of `dt` \[s], of mobile grains with inverse masses from and to `masses` [1/kg].
     #[must_use]
     fn for_step(self, dt: f64, masses: Option<[f64; 2]>) -> Self;
     /// Whether torque and sliding take the lever arm R, as LAMMPS does, instead of the distance to the contact.
@@ -75,7 +75,7 @@ pub struct LinearSpring {
 /// moment of touch anywhere within it, returns e_n in the mean; as the step shrinks it becomes that of the closed form.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Discrete {
-    /// time step [s]; 0 is the continuous law
+    /// time step \[s]; 0 is the continuous law
     pub dt: f64,
     /// of equal grains: inverse mass between those of a pair with one and with two mobile grains [1/kg], and the
     /// damping coefficients of both [kg/s]

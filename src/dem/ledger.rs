@@ -7,13 +7,13 @@ use crate::numerics::sum::Sum;
 /// What was given to the mobile grains since the beginning.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Ledger {
-    /// kinetic energy at the beginning [J]
+    /// kinetic energy at the beginning \[J]
     pub initial_kinetic: f64,
-    /// work of contacts among grains and with walls [J]
+    /// work of contacts among grains and with walls \[J]
     pub contacts: Sum,
-    /// work of gravity [J]
+    /// work of gravity \[J]
     pub gravity: Sum,
-    /// work of the body force [J]
+    /// work of the body force \[J]
     pub body: Sum,
     /// momentum at the beginning [kg m/s]
     pub initial_momentum: Point,
@@ -62,7 +62,7 @@ impl Ledger {
         if scale > 0.0 { worst / scale } else { 0.0 }
     }
 
-    /// Kinetic energy [J] minus what it was minus all work: round-off.
+    /// Kinetic energy \[J] minus what it was minus all work: round-off.
     #[must_use]
     pub fn defect(&self, kinetic: f64) -> f64 {
         let mut sum = Sum::default();
@@ -73,7 +73,7 @@ impl Ledger {
         sum.total()
     }
 
-    /// Largest of the energies in the balance [J].
+    /// Largest of the energies in the balance \[J].
     #[must_use]
     pub fn scale(&self, kinetic: f64) -> f64 {
         [kinetic, self.initial_kinetic, self.contacts.total(), self.gravity.total(), self.body.total()]

@@ -60,7 +60,7 @@ pub struct Surroundings<'a> {
     pub cells: &'a Cells,
     /// periods and walls
     pub domain: &'a Domain,
-    /// how much farther apart than touching grains may be to be listed [m]
+    /// how much farther apart than touching grains may be to be listed \[m]
     pub skin: f64,
     /// the list before
     pub before: Before<'a>,

@@ -48,7 +48,7 @@ pub fn bottom(bed: &GrainBed) -> Vec<Grain> {
     grains
 }
 
-/// `bed.mobile` grains in loose layers above `floor` [m], each a little off its place.
+/// `bed.mobile` grains in loose layers above `floor` \[m], each a little off its place.
 #[must_use]
 pub fn cloud(bed: &GrainBed, floor: f64) -> Vec<Grain> {
     let d = bed.d;
@@ -80,7 +80,7 @@ pub fn cloud(bed: &GrainBed, floor: f64) -> Vec<Grain> {
     grains
 }
 
-/// The grains of a resting bed whose centres are within three quarters of a diameter of `level` [m], fixed, and moved so
+/// The grains of a resting bed whose centres are within three quarters of a diameter of `level` \[m], fixed, and moved so
 /// that their mean is at 0. A slice of one diameter, as in the paper, has holes through which a grain can fall.
 #[must_use]
 pub fn slice(resting: &[Grain], level: f64, d: f64) -> Vec<Grain> {

@@ -9,7 +9,7 @@ use crate::closures::contact::LinearSpring;
 /// A bed of spheres. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GrainBed {
-    /// diameter [m]
+    /// diameter \[m]
     pub d: f64,
     /// density [kg/m3]
     pub rho_p: f64,
@@ -17,13 +17,13 @@ pub struct GrainBed {
     pub mobile: usize,
     /// what the bed rests on
     pub bottom: Bottom,
-    /// period along x, and period or distance of walls along y [m]
+    /// period along x, and period or distance of walls along y \[m]
     pub size: [f64; 2],
     /// whether walls bound y
     pub side_walls: bool,
     /// whether those are without friction
     pub smooth_walls: bool,
-    /// slope angle [rad]
+    /// slope angle \[rad]
     pub beta: f64,
     /// gravity [m/s2]
     pub g: f64,
@@ -34,7 +34,7 @@ pub struct GrainBed {
 }
 
 impl GrainBed {
-    /// Mass of a grain [kg].
+    /// Mass of a grain \[kg].
     #[must_use]
     pub fn mass(&self) -> f64 {
         Grain::at_rest([0.0; 3], 0.5 * self.d, self.rho_p).mass()

@@ -16,7 +16,7 @@ use super::law::ContactLaw;
 /// The longest step, and who sets it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limit {
-    /// longest stable step [s]; infinite without contacts
+    /// longest stable step \[s]; infinite without contacts
     pub step: f64,
     /// place of the grain
     pub grain: usize,
@@ -24,14 +24,14 @@ pub struct Limit {
     pub contacts: usize,
 }
 
-/// Longest stable step of one contact of reduced mass `mass` [kg] [s].
+/// Longest stable step of one contact of reduced mass `mass` \[kg] \[s].
 #[must_use]
 pub fn of_pair<C: ContactLaw>(law: &C, mass: f64) -> f64 {
     let (k_n, k_s) = law.stiffness();
     damped((k_n / mass).sqrt(), law.damping_ratio()).min(2.0 / (3.5 * k_s / mass).sqrt())
 }
 
-/// Longest step of a mode of frequency `w` [1/s] and damping ratio `zeta` [s].
+/// Longest step of a mode of frequency `w` [1/s] and damping ratio `zeta` \[s].
 fn damped(w: f64, zeta: f64) -> f64 {
     // The step falls where the map rises, and the slope of the map is below 1: halving the interval cannot fail.
     let (mut low, mut high) = (std::f64::consts::SQRT_2, 2.0);
@@ -46,7 +46,7 @@ fn damped(w: f64, zeta: f64) -> f64 {
     low / w
 }
 
-/// Longest step in which contacts with the rate 2 ζ w [1/s], `lambda` of them as one, take less than twice the approach of a grain [s].
+/// Longest step in which contacts with the rate 2 ζ w [1/s], `lambda` of them as one, take less than twice the approach of a grain \[s].
 fn of_damping(rate: f64, lambda: f64) -> f64 {
     if lambda > 2.0 && rate > 0.0 { -(-2.0 / lambda).ln_1p() / rate } else { f64::INFINITY }
 }
@@ -54,7 +54,7 @@ fn of_damping(rate: f64, lambda: f64) -> f64 {
 /// Contacts that act as one along the worst direction in a bed that comes to rest: twelve touching neighbours, all around.
 const CLOSE_PACKED: f64 = 4.0;
 
-/// Longest step in which the damping of contacts of reduced mass `mass` [kg] is stable in any bed of like grains [s].
+/// Longest step in which the damping of contacts of reduced mass `mass` \[kg] is stable in any bed of like grains \[s].
 #[must_use]
 pub fn of_packing<C: ContactLaw>(law: &C, mass: f64) -> f64 {
     let (k_n, _) = law.stiffness();
@@ -66,7 +66,7 @@ struct Stiffness {
     normal: Matrix3<f64>,
     whole: Matrix6<f64>,
     contacts: usize,
-    /// largest damping ratio over frequency of a contact [s]
+    /// largest damping ratio over frequency of a contact \[s]
     damping: f64,
     /// smallest w² of a contact [1/s2]
     softest: f64,

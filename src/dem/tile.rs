@@ -22,7 +22,7 @@ pub struct Found {
     pub wall_contacts: usize,
     /// largest overlap over the sum of the radii
     pub overlap: f64,
-    /// force of walls on grains [N]
+    /// force of walls on grains \[N]
     pub walls: [f64; 3],
 }
 
@@ -33,11 +33,11 @@ pub struct Moved {
     pub fastest: f64,
     /// 0, or not a number if any state is none
     pub sane: f64,
-    /// work of contacts with grains and walls [J]
+    /// work of contacts with grains and walls \[J]
     pub contact_work: f64,
-    /// work of gravity [J]
+    /// work of gravity \[J]
     pub gravity_work: f64,
-    /// work of the body force [J]
+    /// work of the body force \[J]
     pub body_work: f64,
     /// impulse of gravity and body force on the mobile grains [N s]
     pub impulse: [f64; 3],
@@ -50,7 +50,7 @@ pub struct Moved {
 pub struct WallList {
     /// grain of each, padded per wall
     pub grains: Vec<u64>,
-    /// elongation of the tangential springs [m], 0 where none touches
+    /// elongation of the tangential springs \[m], 0 where none touches
     pub springs: Vec<Row>,
     /// which entries of each group may have touched in the last step
     pub touching: Vec<u8>,
@@ -67,7 +67,7 @@ pub struct Tile {
     pub starts: Vec<u32>,
     /// pairs, in the order of their first grain, padded to a multiple of [`GROUP`]
     pub pairs: Vec<Pair>,
-    /// elongation of the tangential spring of each pair [m]
+    /// elongation of the tangential spring of each pair \[m]
     pub springs: Vec<Row>,
     /// which pairs of each group touch
     pub touching: Vec<u8>,

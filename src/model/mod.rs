@@ -31,11 +31,26 @@ pub type Faults = Vec<(&'static str, Fault)>;
 
 /// What a model is called and how it behaves, before there is a problem.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct ModelInfo {
     /// `kind` or `kind/solution`, as in `[model]` of a case
     pub name: &'static str,
     /// whether its results are means of fluctuating quantities
     pub stochastic: bool,
+}
+
+impl ModelInfo {
+    /// A model of this name whose results do not fluctuate.
+    #[must_use]
+    pub const fn new(name: &'static str) -> Self {
+        Self { name, stochastic: false }
+    }
+
+    /// The same, whose results are means of fluctuating quantities.
+    #[must_use]
+    pub const fn stochastic(self) -> Self {
+        Self { stochastic: true, ..self }
+    }
 }
 
 /// A model: a checked problem in SI, and how the tables of its cases become one. [`Entry::of`] registers it.
@@ -124,7 +139,7 @@ pub trait Solve: Any + Debug + Send + Sync {
 pub struct SteadyDrive {
     /// unit of the velocity, of which round-off may leave a part where nothing moves [m/s]
     pub velocity_scale: f64,
-    /// time at which the flow is looked at [s]; `None` for a steady one
+    /// time at which the flow is looked at \[s]; `None` for a steady one
     pub at_s: Option<f64>,
     /// what a user can change where the fluid goes the other way
     pub hint: &'static str,
@@ -140,6 +155,7 @@ impl SteadyDrive {
 
 /// What a problem is, for readers.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct Description {
     /// the form of the model where it has several: `mixed`, `two-fluid`
     pub form: Option<&'static str>,
@@ -147,4 +163,12 @@ pub struct Description {
     pub equations: String,
     /// the laws in them
     pub laws: Vec<&'static Info>,
+}
+
+impl Description {
+    /// Equations, numbers filled in, and the laws in them.
+    #[must_use]
+    pub fn new(equations: String, laws: Vec<&'static Info>) -> Self {
+        Self { form: None, equations, laws }
+    }
 }

@@ -3,6 +3,7 @@
 
 /// A flow that more than one model answers.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Flow {
     /// a laminar flow over a bed of grains
     Laminar(LaminarScene),
@@ -21,13 +22,13 @@ pub struct LaminarScene {
     pub eta: f64,
     /// density of the grains [kg/m3]
     pub rho_p: f64,
-    /// diameter of the grains [m]
+    /// diameter of the grains \[m]
     pub d: f64,
-    /// bed level [m]
+    /// bed level \[m]
     pub h_p: f64,
     /// solid fraction of the bed
     pub phi: f64,
-    /// flow height [m]
+    /// flow height \[m]
     pub h: f64,
     /// gravity [m/s2]
     pub g: f64,
@@ -65,11 +66,11 @@ pub struct TurbulentScene {
     pub rho_p: f64,
     /// kinematic viscosity of the fluid [m2/s]
     pub nu: f64,
-    /// diameter of the grains [m]
+    /// diameter of the grains \[m]
     pub d: f64,
     /// gravity [m/s2]
     pub g: f64,
-    /// depth of the fluid [m]
+    /// depth of the fluid \[m]
     pub depth: f64,
     /// sine of the slope
     pub sine: f64,
@@ -134,7 +135,7 @@ impl TurbulentScene {
         self.theta / (self.mu_s * PACKED * (1.0 - self.weight())).max(1e-12)
     }
 
-    /// Thickness of a bed that stays at rest below the moving layer [m].
+    /// Thickness of a bed that stays at rest below the moving layer \[m].
     #[must_use]
     pub fn bed_thickness(&self) -> f64 {
         2.5 * self.layers().max(5.0) * self.d
@@ -164,6 +165,7 @@ impl TurbulentScene {
 
 /// What an answer costs, in its order of magnitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
 pub enum Effort {
     /// a closed form
     None,
@@ -203,6 +205,7 @@ pub struct Term {
 
 /// How a term is judged.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum TermTest {
     /// by solving the case with and without it
     Solve {

@@ -9,6 +9,7 @@ use crate::result::{Profile, Results};
 
 /// What a problem says of its studies.
 #[derive(Clone, Debug, Default)]
+#[non_exhaustive]
 pub struct StudyPlan {
     /// what is measured, and what is refined; `None` for a closed form, and for grains
     pub focus: Option<Focus>,
@@ -40,7 +41,7 @@ impl Rung {
 
 /// The solution of a problem under the exact yield, to round-off.
 pub trait ClosedForm: Send {
-    /// Its numbers [SI].
+    /// Its numbers \[SI].
     fn results(&self) -> &Results;
     /// The velocity that is measured, at the levels of `run`.
     fn at(&self, run: &Profile) -> Option<Profile>;
@@ -48,6 +49,7 @@ pub trait ClosedForm: Send {
 
 /// What a study of a model measures and what it varies.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Focus {
     /// the velocity whose norms are taken
     pub velocity: &'static Quantity,
@@ -63,6 +65,26 @@ pub struct Focus {
     pub sizes: Option<Sizes>,
     /// meshes over which it converges
     pub meshes: Option<Meshes>,
+}
+
+impl Focus {
+    /// A velocity with its unit [m/s] and numbers, refined over `meshes`.
+    #[must_use]
+    pub fn on_meshes(
+        velocity: &'static Quantity,
+        velocity_unit: f64,
+        numbers: &'static [Number],
+        meshes: Meshes,
+    ) -> Self {
+        Self { velocity, velocity_unit, numbers, bed: false, paper_rms: false, sizes: None, meshes: Some(meshes) }
+    }
+}
+
+impl From<Focus> for StudyPlan {
+    /// What is measured and refined, without a ladder.
+    fn from(focus: Focus) -> Self {
+        Self { focus: Some(focus), ..Self::default() }
+    }
 }
 
 /// A number besides the velocity.

@@ -85,7 +85,7 @@ pub(super) const PLANES: Meshes = Meshes {
 /// Bingham number of the first layer of grains.
 pub(super) const OVER_A_BED: &str = "μ_s (ρ_p - ρ_f) g d H/(η U_m)";
 
-/// Yield stress of the first layer of grains, as in section 3.2 of the paper [Pa].
+/// Yield stress of the first layer of grains, as in section 3.2 of the paper \[Pa].
 pub(super) fn first_layer(bed: &LaminarBed) -> f64 {
     bed.friction.mu_s * (bed.rho_p - bed.rho_f) * bed.g * bed.d
 }

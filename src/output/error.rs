@@ -16,6 +16,7 @@ pub struct Holder {
 
 /// What is finished of an output that broke on the way, and stays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Finished {
     /// the state from which a run goes on
     Checkpoint,
@@ -38,6 +39,7 @@ impl fmt::Display for Finished {
 
 /// Why a folder cannot be used or written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum OutputError {
     /// another process writes it
     #[error("{} is in use: {}", path.display(), who(holder.as_ref()))]

@@ -16,6 +16,7 @@ use crate::result::Status;
 
 /// What may be done with a folder that is not empty.
 #[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
 pub struct Mode {
     /// replace any run that bedload wrote
     pub force: bool,

@@ -1,13 +1,11 @@
 //! One writer at a time: what is being written is locked, by the system, in a hidden file beside it.
 
 use std::ffi::OsString;
-use std::fs::{self, File};
+use std::fs::{self, File, TryLockError};
 use std::io::{self, ErrorKind, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
-
-use fs4::{FileExt, TryLockError};
 
 use super::error::{Holder, OutputError};
 use super::ours::POINTS;
@@ -109,7 +107,7 @@ impl Lock {
             let file =
                 file.or_else(|error| if is_closed(&error) { File::open(path).map_err(|_| error) } else { Err(error) });
             let file = file.map_err(unwritable)?;
-            match FileExt::try_lock(&file) {
+            match file.try_lock() {
                 // The last holder removed the file after it was opened here: it locks nothing any more.
                 Ok(()) if !is_there(&file, path) => {}
                 Ok(()) => {
@@ -236,11 +234,11 @@ mod tests {
         let (target, lock) = (scratch.path().join("out"), scratch.path().join(".out.lock"));
         let site = Site::take(&target).unwrap();
         let early = File::open(&lock).unwrap();
-        assert!(matches!(FileExt::try_lock(&early), Err(TryLockError::WouldBlock)));
+        assert!(matches!(early.try_lock(), Err(TryLockError::WouldBlock)));
         assert!(is_there(&early, &lock));
         drop(site);
         // Now it can be locked, and means nothing, whether there is a new one or not.
-        FileExt::try_lock(&early).unwrap();
+        early.try_lock().unwrap();
         assert!(!is_there(&early, &lock));
         let _site = Site::take(&target).unwrap();
         assert!(!is_there(&early, &lock));

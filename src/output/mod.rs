@@ -5,6 +5,7 @@ mod error;
 mod folder;
 mod grains;
 mod lock;
+mod manual;
 mod ours;
 mod path;
 mod run;
@@ -15,6 +16,7 @@ pub use comparison::{Compared, prepare_comparison, write_comparison};
 pub use error::{Finished, Holder, OutputError};
 pub use folder::{Folder, Mode};
 pub use grains::CHECKPOINT;
+pub use manual::Manual;
 pub use path::default_folder;
 pub use run::{
     Written, fingerprint, read_field, read_run, read_series, redraw, write_failure, write_outcome, write_running,

@@ -23,6 +23,7 @@ use crate::result::{
 
 /// A run as it stands in its folder.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Written {
     /// its summary
     pub summary: Summary,

@@ -33,16 +33,10 @@ impl TableFile {
         let site = Site::take(&file)?;
         let unwritable = |error| OutputError::Unwritable { path: file.clone(), error };
         let drawing = file.with_file_name(FIGURES).join(format!("{figure}.png"));
-        let known = fs::symlink_metadata(&file);
-        let new = known.is_err();
-        match known {
-            Ok(known) if known.is_dir() => return Err(unwritable(io::ErrorKind::IsADirectory.into())),
-            Ok(_) if fs::read_to_string(&file).is_ok_and(|text| text.is_empty() || text.starts_with(head)) => {}
-            Ok(_) => return Err(OutputError::ForeignFile(file)),
-            // A figure without its table is somebody's.
-            Err(_) if fs::symlink_metadata(&drawing).is_ok() => return Err(OutputError::ForeignFile(drawing)),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {}
-            Err(error) => return Err(unwritable(error)),
+        let new = !replaces(&file, |text| text.starts_with(head))?;
+        // A figure without its table is somebody's.
+        if new && fs::symlink_metadata(&drawing).is_ok() {
+            return Err(OutputError::ForeignFile(drawing));
         }
         Ok(Self { _above: Made::above(&drawing).map_err(unwritable)?, _site: site, file, new })
     }
@@ -59,5 +53,20 @@ impl TableFile {
                 let _ = fs::remove_file(drawing);
             }
         })
+    }
+}
+
+/// Whether `file` stands there to be replaced: it is empty, or its text is `ours`.
+///
+/// # Errors
+/// [`OutputError`] if something else stands there.
+pub(super) fn replaces(file: &Path, ours: impl FnOnce(&str) -> bool) -> Result<bool, OutputError> {
+    let unwritable = |error| OutputError::Unwritable { path: file.into(), error };
+    match fs::symlink_metadata(file) {
+        Ok(known) if known.is_dir() => Err(unwritable(io::ErrorKind::IsADirectory.into())),
+        Ok(_) if fs::read_to_string(file).is_ok_and(|text| text.is_empty() || ours(&text)) => Ok(true),
+        Ok(_) => Err(OutputError::ForeignFile(file.into())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(unwritable(error)),
     }
 }

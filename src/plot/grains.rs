@@ -7,7 +7,7 @@ use crate::units::readable;
 
 /// Colours from slow to fast; all tell apart from light and dark pages, and without colour by their lightness.
 const COLOURS: [[f64; 3]; 4] = [[68.0, 58.0, 120.0], [49.0, 122.0, 142.0], [94.0, 190.0, 112.0], [240.0, 210.0, 50.0]];
-/// Width of the picture [px].
+/// Width of the picture \[px].
 const WIDTH: f64 = 720.0;
 
 /// The picture; none if there is nothing to draw.

@@ -71,7 +71,7 @@ const SCALE: f64 = 52.0;
 /// Writes a map as a PNG file 1600 pixels wide.
 ///
 /// # Errors
-/// As [`super::png`].
+/// As [`super::png()`].
 pub fn map_png(map: &Map, path: &Path) -> Result<(), PlotError> {
     let widths: Vec<f64> = map.panels.iter().map(|p| HEIGHT * span(&p.x) / span(&p.y)).collect();
     let width = widths.iter().map(|w| MARGINS.left + w + MARGINS.right).sum::<f64>();

@@ -1,5 +1,5 @@
-//! Figures and the page of a run, from stored results alone: [`profile_figures`] makes figures of a profile, [`svg`]
-//! and [`png`] draw them, [`report_html`] sets the page. [`shared_figures`] and [`document_html`] do so for several.
+//! Figures and the page of a run, from stored results alone: [`profile_figures`] makes figures of a profile, [`svg()`]
+//! and [`png()`] draw them, [`report_html`] sets the page. [`shared_figures`] and [`document_html`] do so for several.
 
 mod axis;
 mod canvas;

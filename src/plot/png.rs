@@ -11,7 +11,7 @@ use super::layout::Layout;
 use super::{PlotError, theme};
 use crate::result::Figure;
 
-/// Width of the file [pixels].
+/// Width of the file \[pixels].
 pub(super) const WIDTH: u32 = 1600;
 /// Pixels drawn per pixel written, in each direction.
 pub(super) const FINER: u32 = 3;
@@ -19,7 +19,7 @@ pub(super) const FINER: u32 = 3;
 /// Writes `figure` in the light theme as a PNG file 1600 pixels wide; `path` ends in `.png`.
 ///
 /// # Errors
-/// [`PlotError::Write`] if the file cannot be written, else as [`super::svg`].
+/// [`PlotError::Write`] if the file cannot be written, else as [`super::svg()`].
 pub fn png(figure: &Figure, path: &Path) -> Result<(), PlotError> {
     let layout = Layout::new(figure)?;
     let height = (f64::from(WIDTH) * layout.size.1 / layout.size.0).ceil() as u32;

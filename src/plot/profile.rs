@@ -64,7 +64,7 @@ const TURBULENCE: Pen = Pen(3, Dash::DashDotted);
 struct Scene<'a> {
     profile: &'a Profile,
     summary: &'a Summary,
-    /// elevations [m]
+    /// elevations \[m]
     z: Vec<f64>,
     /// readable unit of the elevation: factor from SI and symbol
     z_unit: (f64, &'static str),

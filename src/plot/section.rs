@@ -7,7 +7,7 @@ use super::grains::{colour, scale_bar};
 use super::map::{MapPanel, Place, Trail};
 use crate::result::{Axis, Dash, Field};
 
-/// Width or height of the picture, whichever is larger [px].
+/// Width or height of the picture, whichever is larger \[px].
 const SIZE: f64 = 560.0;
 /// Most tiles along one direction.
 const TILES: usize = 64;
@@ -22,7 +22,7 @@ struct Grid {
     vectors: Option<(Vec<f64>, Vec<f64>)>,
 }
 
-/// The map of a field with u_mixture_m_s or speed_m_s, and unyielded; `symmetric` adds the other half of the section, `bed` [m] draws a level. None if there is nothing to draw.
+/// The map of a field with u_mixture_m_s or speed_m_s, and unyielded; `symmetric` adds the other half of the section, `bed` \[m] draws a level. None if there is nothing to draw.
 #[must_use]
 pub fn section_svg(field: &Field, symmetric: bool, bed: Option<f64>) -> Option<String> {
     let grid = Grid::of(field)?;

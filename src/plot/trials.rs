@@ -73,7 +73,7 @@ impl Bed {
         }
     }
 
-    /// velocity, viscous stress, stress of the grains [SI] at elevation `z`
+    /// velocity, viscous stress, stress of the grains \[SI] at elevation `z`
     fn at(&self, z: f64) -> (f64, f64, f64) {
         let b = (MU * PHI - DRIVE) / EINSTEIN;
         let (z, top, low) = (z / HEIGHT, self.bed / HEIGHT, self.yielding / HEIGHT);

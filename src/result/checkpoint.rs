@@ -2,6 +2,7 @@
 
 /// Why a checkpoint cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CheckpointError {
     /// not one at all
     #[error("it is not a checkpoint of bedload")]

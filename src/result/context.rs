@@ -27,6 +27,7 @@ pub trait Frames {
 }
 
 /// Who watches a run, who keeps its states and frames, and the threads that it may use.
+#[non_exhaustive]
 pub struct Context<'a> {
     /// threads; at least one
     pub threads: usize,

@@ -10,9 +10,9 @@ pub enum SolveError {
         "the whole bed moves: the mobile layer would be {mobile_depth_m:.6} m deep where the bed is {bed_m:.6} m (z = 0 is reached)"
     )]
     WholeBedMoves {
-        /// depth to which the grains would move [m]
+        /// depth to which the grains would move \[m]
         mobile_depth_m: f64,
-        /// thickness of the bed [m]
+        /// thickness of the bed \[m]
         bed_m: f64,
         /// largest drive with a static layer [Pa/m]
         limit_pa_m: f64,
@@ -32,7 +32,7 @@ pub enum SolveError {
         "the whole bed moves: at a Shields number of {shields:.4} the grains yield down to the bottom of the bed, {bed_m:.6} m below its top"
     )]
     NothingAtRest {
-        /// thickness of the bed in the flow [m]
+        /// thickness of the bed in the flow \[m]
         bed_m: f64,
         /// Shields number
         shields: f64,
@@ -50,9 +50,9 @@ pub enum SolveError {
         "the suspension takes the bed away: it would hold {suspended_m:.6} m of solid volume, the bed has {bed_m:.6} m"
     )]
     BedSuspended {
-        /// solid volume in suspension, per area [m]
+        /// solid volume in suspension, per area \[m]
         suspended_m: f64,
-        /// solid volume of the bed at rest, per area [m]
+        /// solid volume of the bed at rest, per area \[m]
         bed_m: f64,
     },
     /// A bed whose loosening feeds itself.
@@ -60,15 +60,15 @@ pub enum SolveError {
         "no level of the bed holds its grains: from {rest_m:.6} m at rest it was raised to {reached_m:.6} m, where nothing stays at rest; a looser bed leaves a thinner, steeper flow, which loosens it more"
     )]
     BedRunsAway {
-        /// bed level at rest [m]
+        /// bed level at rest \[m]
         rest_m: f64,
-        /// level up to which it was raised [m]
+        /// level up to which it was raised \[m]
         reached_m: f64,
     },
     /// A lid that would have to drive the flow.
     #[error("the lid would have to push: its stress comes out as {stress_pa:.6} Pa against the flow, less than none")]
     LidPushes {
-        /// stress that the lid takes from the fluid [Pa]
+        /// stress that the lid takes from the fluid \[Pa]
         stress_pa: f64,
     },
     /// A granular film that accelerates without end.
@@ -84,9 +84,9 @@ pub enum SolveError {
         "the equations change type down to {depth_m:.3e} m of grains under the interface; the buoyancy of the viscous stress is left out in {cut_m:.3e} m alone"
     )]
     ChangeOfType {
-        /// solid volume per area under the interface down to which they do [m]
+        /// solid volume per area under the interface down to which they do \[m]
         depth_m: f64,
-        /// that in which the term is left out [m]
+        /// that in which the term is left out \[m]
         cut_m: f64,
     },
     /// A wanted value that no drive gives.
@@ -140,9 +140,9 @@ pub enum SolveError {
         "stuck at t = {time_s:.6} s: no step is short enough, the last one was {step_s:.3e} s with the residual {residual:.3e}"
     )]
     StuckInTime {
-        /// simulated time [s]
+        /// simulated time \[s]
         time_s: f64,
-        /// last step [s]
+        /// last step \[s]
         step_s: f64,
         /// residual of the step, or its error
         residual: f64,
@@ -192,7 +192,7 @@ pub enum SolveError {
     FlowsUphill {
         /// mean velocity of the fluid, negative [m/s]
         velocity_m_s: f64,
-        /// time over which it is the mean [s]; `None` for a steady flow
+        /// time over which it is the mean \[s]; `None` for a steady flow
         over_s: Option<[f64; 2]>,
         /// what a user can change
         hint: &'static str,

@@ -13,7 +13,7 @@ pub struct Field {
     pub across: usize,
     /// rows
     pub up: usize,
-    /// positions (y, z) [m]
+    /// positions (y, z) \[m]
     pub places: Vec<(f64, f64)>,
     /// columns with their names
     pub columns: Vec<(Cow<'static, str>, Vec<f64>)>,
@@ -95,7 +95,7 @@ impl Field {
 /// Grains of one slice along the flow, the farthest from the viewer first: enough to draw a side view.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SideView {
-    /// x, z, radius [m] and velocity along the flow [m/s] of each
+    /// x, z, radius \[m] and velocity along the flow [m/s] of each
     pub grains: Vec<[f64; 4]>,
 }
 

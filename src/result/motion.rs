@@ -8,23 +8,23 @@ use serde::{Deserialize, Serialize};
 pub struct Motion {
     /// version of the layout: [`Motion::FORMAT`]
     pub format: u32,
-    /// time of the flow at the first picture [s]
+    /// time of the flow at the first picture \[s]
     pub begin_s: f64,
-    /// time between two pictures [s]
+    /// time between two pictures \[s]
     pub interval_s: f64,
     /// number of pictures
     pub pictures: usize,
     /// number of grains in each of them
     pub grains: usize,
-    /// radius of the grains [m]
+    /// radius of the grains \[m]
     pub radius_m: f64,
-    /// period along the flow [m]
+    /// period along the flow \[m]
     pub length_m: f64,
-    /// the part of it that is shown, from x = 0 [m]; what starts further from it than it is long is left out
+    /// the part of it that is shown, from x = 0 \[m]; what starts further from it than it is long is left out
     pub shown_m: f64,
-    /// elevation of the smallest z that can be written [m]
+    /// elevation of the smallest z that can be written \[m]
     pub bottom_m: f64,
-    /// elevation of the largest [m]
+    /// elevation of the largest \[m]
     pub top_m: f64,
     /// base64 of 16-bit numbers, the low byte first: x/`length_m` in 65536ths and z in 65535ths of the way from
     /// `bottom_m` to `top_m`, of one grain after the other, the farthest from the viewer first, picture after picture
@@ -34,7 +34,7 @@ pub struct Motion {
 impl Motion {
     /// Version of the layout.
     pub const FORMAT: u32 = 1;
-    /// A bed longer than so many of its heights is shown from its beginning to there [1].
+    /// A bed longer than so many of its heights is shown from its beginning to there \[1].
     pub const LONGEST: f64 = 12.0;
 
     /// Whether it is of this format, its numbers make sense, and there is a place for each grain in each picture.

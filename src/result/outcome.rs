@@ -9,6 +9,7 @@ use super::{
 
 /// Everything that a run has to say, before it is written.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Outcome {
     /// done or stopped
     pub status: Status,

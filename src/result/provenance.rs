@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Program, case and machine of a run. It may differ between identical runs.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Provenance {
     /// version of bedload
     pub bedload: String,

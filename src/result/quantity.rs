@@ -17,7 +17,7 @@ pub struct Quantity {
 
 macro_rules! catalogue {
     ($(#[$doc:meta])* $list:ident: $($id:ident = $name:literal, $title:literal, $symbol:literal, $unit:literal, $definition:literal;)*) => {
-        $(#[doc = concat!($title, ", ", $symbol, " [", $unit, "]: ", $definition)]
+        $(#[doc = concat!($title, ", ", $symbol, " \\[", $unit, "]: ", $definition)]
         pub static $id: Quantity =
             Quantity { name: $name, title: $title, symbol: $symbol, unit: $unit, definition: $definition };)*
         $(#[$doc])*

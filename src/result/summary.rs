@@ -8,6 +8,7 @@ use super::{Provenance, Quantity};
 /// State of a run folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
+#[non_exhaustive]
 pub enum Status {
     /// being computed, or interrupted without a word
     Running,
@@ -32,6 +33,7 @@ impl std::fmt::Display for Status {
 
 /// A result: its value in SI, the standard error of a mean, and why it is missing where it is.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Reported {
     /// SI value; `null` where it is undefined
     pub value: Option<f64>,
@@ -59,7 +61,7 @@ impl Reported {
 pub struct Results(Vec<(String, Reported)>);
 
 impl Results {
-    /// Reports `value` [SI]; a value that is not finite becomes `null` with the reason "not finite".
+    /// Reports `value` \[SI]; a value that is not finite becomes `null` with the reason "not finite".
     pub fn set(&mut self, quantity: &'static Quantity, value: f64) {
         if value.is_finite() {
             self.0.push((quantity.name.into(), Reported { value: Some(value), stderr: None, reason: None }));
@@ -68,7 +70,7 @@ impl Results {
         }
     }
 
-    /// Reports a mean [SI] with its standard error, or why that cannot be told.
+    /// Reports a mean \[SI] with its standard error, or why that cannot be told.
     pub fn set_mean(&mut self, quantity: &'static Quantity, value: f64, stderr: Result<f64, &str>) {
         self.set(quantity, value);
         let Some((_, reported)) = self.0.last_mut().filter(|(_, reported)| reported.value.is_some()) else { return };
@@ -134,25 +136,26 @@ pub struct Validity {
     pub value: f64,
     /// the range, in words
     pub range: String,
-    /// where [m]
+    /// where \[m]
     pub z_m: Option<f64>,
 }
 
 /// What it cost.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Cost {
-    /// wall time of the solver [s]
+    /// wall time of the solver \[s]
     pub solve_s: f64,
-    /// wall time of everything before the summary was written [s]
+    /// wall time of everything before the summary was written \[s]
     pub total_s: f64,
-    /// peak resident memory [MB], where the system tells
+    /// peak resident memory \[MB], where the system tells
     pub peak_memory_mb: Option<f64>,
     /// levels, cells times steps, or grains times steps
     pub work_units: f64,
     /// how often it was solved, where `solve_s` is a median
     #[serde(default, skip_serializing_if = "is_one")]
     pub repeats: usize,
-    /// from the first to the third quartile of those times [s]
+    /// from the first to the third quartile of those times \[s]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spread_s: Option<f64>,
 }

@@ -19,6 +19,7 @@ pub struct Table {
 
 /// Why a table cannot be made or read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum TableError {
     /// a value that is neither finite nor declared undefined
     #[error("{column} is not finite in row {row}")]
@@ -252,7 +253,7 @@ macro_rules! over_an_axis {
 }
 
 over_an_axis!(
-    /// Columns over the elevation z [m], ascending: the one contact surface of results.
+    /// Columns over the elevation z \[m], ascending: the one contact surface of results.
     Profile,
     quantity::Z,
     quantity::COLUMNS
@@ -265,7 +266,7 @@ over_an_axis!(
 );
 
 impl Profile {
-    /// Linear interpolation of a column at elevation `z` [m]; `None` outside the levels or beside an undefined value.
+    /// Linear interpolation of a column at elevation `z` \[m]; `None` outside the levels or beside an undefined value.
     #[must_use]
     pub fn at(&self, quantity: &Quantity, z: f64) -> Option<f64> {
         let (levels, values) = (self.get(&quantity::Z)?, self.get(quantity)?);

@@ -6,6 +6,7 @@ use super::Quantity;
 
 /// What a run shows of itself while it works.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct Snapshot<'a> {
     /// what is being done
     pub stage: &'a str,
@@ -13,6 +14,14 @@ pub struct Snapshot<'a> {
     pub fraction: f64,
     /// the quantity of interest so far, and its value in SI
     pub quantity: Option<(&'static Quantity, f64)>,
+}
+
+impl<'a> Snapshot<'a> {
+    /// The share `fraction` of the work `stage` is done.
+    #[must_use]
+    pub fn new(stage: &'a str, fraction: f64) -> Self {
+        Self { stage, fraction, quantity: None }
+    }
 }
 
 /// Sees snapshots and may ask to stop; it cannot change a run.

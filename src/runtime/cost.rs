@@ -1,6 +1,6 @@
 //! Time and memory of the running program.
 
-/// Peak resident memory [MB] of this process, where the system tells (Linux).
+/// Peak resident memory \[MB] of this process, where the system tells (Linux).
 #[must_use]
 pub fn peak_memory_mb() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;

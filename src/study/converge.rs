@@ -8,6 +8,7 @@ use crate::result::{Curve, Dash, Marker};
 
 /// What is refined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Over {
     /// size of the regularisation of the yield, for each of its laws
     Regularisation,
@@ -17,6 +18,7 @@ pub enum Over {
 
 /// What the error is measured against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Reference {
     /// the exact yield on the same mesh, or the closed form of the exact yield
     Exact,
@@ -26,6 +28,7 @@ pub enum Reference {
 
 /// What the user asks for.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Request {
     /// file or shipped case
     pub case: String,
@@ -37,6 +40,14 @@ pub struct Request {
     pub reference: Option<Reference>,
     /// whether the regularisation has points between the decades
     pub half_decades: bool,
+}
+
+impl Request {
+    /// The case as it stands, against the best reference that there is.
+    #[must_use]
+    pub fn new(case: &str, over: Over) -> Self {
+        Self { case: case.into(), overrides: Vec::new(), over, reference: None, half_decades: false }
+    }
 }
 
 /// Reads what the rows say.

@@ -21,9 +21,9 @@ pub(super) type Columns = Vec<(String, Vec<Option<f64>>)>;
 
 /// What a run is compared with.
 pub(super) struct Truth<'a> {
-    /// columns over z [m]
+    /// columns over z \[m]
     pub profile: Cow<'a, Profile>,
-    /// numbers [SI]
+    /// numbers \[SI]
     pub results: &'a Results,
     /// whether it is the exact yield, against which a run may state errors itself
     pub exact_yield: bool,

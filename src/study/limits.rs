@@ -14,7 +14,7 @@ use crate::result::quantity::{self as q, Quantity};
 
 /// What is judged: the first of these that a point and its closed form have.
 const JUDGED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
-/// A point whose neighbour holds is solved again between them if it takes no longer than this [s].
+/// A point whose neighbour holds is solved again between them if it takes no longer than this \[s].
 const PATIENCE: f64 = 30.0;
 /// Relative width to which a limit is bisected.
 const WIDTH: f64 = 1e-3;

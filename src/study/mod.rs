@@ -70,6 +70,7 @@ pub struct Point {
 
 /// One point with what came of it.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Row {
     /// the point
     pub point: Point,
@@ -79,13 +80,13 @@ pub struct Row {
     pub status: Status,
     /// why it failed
     pub error: Option<ErrorReport>,
-    /// its numbers [SI]
+    /// its numbers \[SI]
     pub results: Results,
     /// evaluations of the residual, where something was iterated
     pub iterations: Option<usize>,
     /// what it cost when it was run
     pub cost: Cost,
-    /// columns over z [SI]
+    /// columns over z \[SI]
     pub profile: Option<Profile>,
     /// fields over the section
     pub field: Option<Field>,
@@ -125,6 +126,7 @@ pub struct Numbers {
 
 /// Why a study cannot be made. Points that fail are rows, not errors.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum StudyError {
     /// the model has nothing of the kind to vary
     #[error("{model} has no {over} to converge over: only {allowed} have")]
@@ -267,7 +269,7 @@ impl Plan {
 }
 
 impl Row {
-    /// One of its numbers [SI].
+    /// One of its numbers \[SI].
     #[must_use]
     pub fn result(&self, name: &str) -> Option<f64> {
         self.results.get(name)

@@ -38,6 +38,7 @@ pub trait Observer: Sync {
 pub type Next = Box<dyn FnOnce(&[Row], &dyn Observer) -> (Vec<Point>, Judge) + Send>;
 
 /// How a study is conducted; none of it changes a result.
+#[non_exhaustive]
 pub struct Settings<'a> {
     /// the models
     pub registry: &'a Registry,
@@ -55,8 +56,17 @@ pub struct Settings<'a> {
     pub observer: &'a dyn Observer,
 }
 
+impl<'a> Settings<'a> {
+    /// On all processors, into the folder of the plan, which must be new or hold the same study.
+    #[must_use]
+    pub fn new(registry: &'a Registry, command: &str, observer: &'a dyn Observer) -> Self {
+        Self { registry, out: None, mode: Mode::default(), threads: 0, png: false, command: command.into(), observer }
+    }
+}
+
 /// A study as it stands in its folder.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Conducted {
     /// `study.json`
     pub record: Value,

@@ -21,6 +21,7 @@ use crate::units::significant;
 
 /// What the user asks for.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Request {
     /// file or shipped case
     pub case: String,
@@ -32,6 +33,14 @@ pub struct Request {
     pub tolerance: f64,
     /// the limit that the case predicts, in the unit of the first key
     pub predicted: Option<f64>,
+}
+
+impl Request {
+    /// The case as it stands over one key or two, with answers that hold within 1 %.
+    #[must_use]
+    pub fn new(case: &str, over: Vec<String>) -> Self {
+        Self { case: case.into(), overrides: Vec::new(), over, tolerance: 0.01, predicted: None }
+    }
 }
 
 /// The plan of a map of stability, and how to judge it.

@@ -21,6 +21,7 @@ pub const FIGURE: &str = "validation";
 
 /// How a row ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Verdict {
     /// within the tolerance
     Green,
@@ -69,6 +70,7 @@ impl Row {
 
 /// Why a case could not be validated.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ValidateError {
     /// the case is wrong
     #[error(transparent)]

@@ -18,7 +18,7 @@ use crate::units::significant;
 pub enum Truth {
     /// a closed form or a fine solution: case and what is changed in it
     Exact(&'static str, &'static [&'static str]),
-    /// a measured or grain-resolved value with its error, and value and time [s] of the grain-resolved run of the scene: it takes too
+    /// a measured or grain-resolved value with its error, and value and time \[s] of the grain-resolved run of the scene: it takes too
     /// long to be made again here
     Known(f64, f64, Option<(f64, f64)>),
 }
@@ -60,12 +60,12 @@ pub struct Scene {
 /// Two numbers, or why there are none.
 pub type Found = Result<(f64, f64), String>;
 
-/// What a model makes of a scene: relative error and time to solve [s]; or why there is none.
+/// What a model makes of a scene: relative error and time to solve \[s]; or why there is none.
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// what it is
     pub name: String,
-    /// relative error [1] and time [s], or the reason
+    /// relative error \[1] and time \[s], or the reason
     pub found: Found,
 }
 
@@ -96,7 +96,7 @@ fn owned(set: &[&str]) -> Vec<String> {
     set.iter().map(|&set| set.to_owned()).collect()
 }
 
-/// Solves a case: the quantity and the shortest of some times [s].
+/// Solves a case: the quantity and the shortest of some times \[s].
 fn solve(registry: &Registry, case: &str, set: &[String], quantity: &str) -> Found {
     let (_, problem) = registry.load(case, set).map_err(|error| error.to_string())?;
     let mut best = f64::INFINITY;

@@ -41,14 +41,7 @@ const U_MIXTURE: &q::Quantity = &q::U_MIXTURE;
 
 impl Twin {
     fn request(&self) -> Request {
-        Request {
-            case: self.case.into(),
-            overrides: Vec::new(),
-            data: "twin.csv".into(),
-            fit: self.fit.iter().map(|(key, _)| (*key).into()).collect(),
-            columns: Vec::new(),
-            sigma: Vec::new(),
-        }
+        Request::new(self.case, "twin.csv", self.fit.iter().map(|(key, _)| (*key).into()).collect())
     }
 
     /// The parameters of the truth.

@@ -1,31 +1,32 @@
 //! The command line: every verb, every exit code, what goes to which stream.
 
+use std::fs;
+
 use serde_json::{Value, json};
 
-use crate::support::Scratch;
+use crate::support::{Scratch, files, project};
 
-const VERBS: &[&str] = &[
-    "run",
-    "check",
-    "explain",
-    "new",
-    "list",
-    "report",
-    "compare",
-    "converge",
-    "sweep",
-    "validate",
-    "schema",
-    "completions",
-];
+/// The verbs of the program.
+fn verbs(scratch: &Scratch) -> Vec<String> {
+    let help = scratch.bedload(["--help"]).exits(0).out;
+    let list = help.split_once("Commands:\n").and_then(|(_, rest)| rest.split_once("\n\n")).map(|(list, _)| list);
+    // What begins further in is the rest of a long line.
+    let names = list.unwrap().lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
+    let verbs: Vec<String> = names.filter(|name| !["", "help"].contains(name)).map(str::to_owned).collect();
+    let files = files(&project("src/cli"), "rs");
+    let written = files.iter().filter(|file| fs::read_to_string(file).unwrap().contains("impl Verb for"));
+    // One file is that of all verbs.
+    assert_eq!(verbs.len(), written.count() - 1, "{verbs:?}");
+    verbs
+}
 
 #[test]
 fn every_verb_has_help() {
     let scratch = Scratch::new();
     let top = scratch.bedload(["--help"]).exits(0).out;
-    for verb in VERBS {
+    for verb in &verbs(&scratch) {
         assert!(top.contains(&format!("\n  {verb} ")), "{verb} is not in\n{top}");
-        let help = scratch.bedload([verb, "--help"]).exits(0).out;
+        let help = scratch.bedload([verb.as_str(), "--help"]).exits(0).out;
         assert!(help.contains("Usage: bedload"), "{help}");
     }
     assert!(top.contains("Exit codes: 0 done; 1 "), "{top}");
@@ -187,8 +188,56 @@ fn completions_know_the_verbs() {
     let scratch = Scratch::new();
     for shell in ["bash", "zsh", "fish"] {
         let script = scratch.bedload(["completions", shell]).exits(0).out;
-        for verb in VERBS {
-            assert!(script.contains(verb), "{shell} does not know {verb}");
+        for verb in &verbs(&scratch) {
+            assert!(script.contains(verb.as_str()), "{shell} does not know {verb}");
         }
     }
+}
+
+#[test]
+fn the_manual_has_a_page_for_each_verb_and_replaces_nothing_but_itself() {
+    let scratch = Scratch::new();
+    let mut pages = vec!["bedload.1".to_owned()];
+    pages.extend(verbs(&scratch).iter().map(|verb| format!("bedload-{verb}.1")));
+    pages.sort();
+    scratch.write("other.1", "theirs");
+    let said = scratch.bedload(["man", "--out", "share/man1"]).exits(0).out;
+    assert_eq!(said, format!("wrote {} pages to share/man1\n", pages.len()));
+    assert_eq!(scratch.names("share/man1"), pages);
+    let first = scratch.read("share/man1/bedload.1");
+    for page in &pages {
+        let text = scratch.read(format!("share/man1/{page}").as_str());
+        let name = page.trim_end_matches(".1").replace('-', "\\-");
+        assert!(first.contains(&name) && text.contains(&format!("{name} \\- ")), "{page}: {text}");
+        assert!(text.contains("Exit codes: 0 done; 1 "), "{page}: {text}");
+    }
+    let printed = scratch.bedload(["man"]).exits(0).out;
+    assert!(printed.starts_with(&first) && printed.matches(".TH bedload").count() == pages.len());
+    // Its own pages are replaced, whatever their version, beside those of others.
+    scratch.write("share/man1/bedload-run.1", first.replace("TH bedload ", "TH bedload-run "));
+    scratch.write("share/man1/other.1", "theirs");
+    scratch.bedload(["man", "--out", "share/man1"]).exits(0);
+    assert!(scratch.read("share/man1/bedload-run.1").contains("bedload\\-run"));
+    scratch.write("share/man1/bedload-run.1", "a page about beds, runs and loads");
+    scratch.write("share/man1/bedload.1", "");
+    let said = scratch.bedload(["man", "--out", "share/man1"]).exits(2).err;
+    assert!(said.contains("bedload-run.1 was not written by bedload"), "{said}");
+    assert_eq!(
+        (scratch.read("share/man1/bedload.1").as_str(), scratch.read("share/man1/other.1").as_str()),
+        ("", "theirs")
+    );
+    scratch.bedload(["man", "--out", "other.1"]).exits(2);
+    assert_eq!(scratch.read("other.1"), "theirs");
+}
+
+#[cfg(unix)]
+#[test]
+fn the_manual_can_be_read() {
+    let scratch = Scratch::new();
+    if scratch.shell("man --version && man -l /dev/null").code != 0 {
+        println!("skipped: no man");
+        return;
+    }
+    let read = scratch.shell("$BEDLOAD man | man --warnings -l - 2>&1");
+    assert!(read.out.contains("bedload-run(1)"), "{}", read.out);
 }

@@ -88,8 +88,8 @@ fn points(name: &str) -> Vec<Point> {
     let mut points = chart::plan(&REGISTRY, &request).map(|(plan, _)| plan.points).unwrap_or_default();
     for over in [converge::Over::Regularisation, converge::Over::Mesh] {
         for reference in [None, Some(converge::Reference::Finest)] {
-            let (case, overrides) = (name.to_owned(), vec![]);
-            let request = converge::Request { case, overrides, over, reference, half_decades: false };
+            let mut request = converge::Request::new(name, over);
+            request.reference = reference;
             points.extend(converge::plan(&REGISTRY, &request).map(|(plan, _)| plan.points).unwrap_or_default());
         }
     }

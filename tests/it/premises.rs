@@ -83,6 +83,10 @@ fn other_laminar_flows_are_flagged_beyond_the_limit_alone() {
         assert_eq!(flagged(&at(eta(1999.0))), None, "{name}");
         assert!((flagged(&at(eta(2001.0))).unwrap() - 2001.0).abs() < 0.1, "{name}");
     }
+    // Between side walls half as far apart as bottom and lid, on their distance.
+    let narrow = shipped("section_2d_square", &["grid.cells=8", "fluid.viscosity=1e-4", "flow.width=0.5"]);
+    let (reynolds, reported) = (flagged(&narrow).unwrap(), narrow.results.get(q::REYNOLDS.name).unwrap());
+    assert!((reported / reynolds - 2.0).abs() < 2e-3, "{reported} {reynolds}");
 }
 
 #[test]

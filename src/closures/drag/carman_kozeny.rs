@@ -53,7 +53,7 @@ fn kozeny() -> f64 {
 }
 
 impl CarmanKozeny {
-    /// Permeability K [m2] of a bed of solid fraction `phi` and grain diameter `d` [m].
+    /// Permeability K \[m2] of a bed of solid fraction `phi` and grain diameter `d` \[m].
     #[must_use]
     pub fn permeability(&self, phi: f64, d: f64) -> f64 {
         let phi = phi.max(self.phi_min);

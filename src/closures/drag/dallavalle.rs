@@ -51,7 +51,7 @@ fn exponent() -> f64 {
 
 impl Dallavalle {
     /// `C_D` [kg/(m3 s)] for the solid fraction `phi`, the slip `w` [m/s], and of the fluid the density `rho_f` [kg/m3] and
-    /// viscosity `eta` [Pa s]; grains of diameter `d` [m].
+    /// viscosity `eta` [Pa s]; grains of diameter `d` \[m].
     #[must_use]
     pub fn coefficient<T: Real>(&self, phi: T, w: T, (rho_f, eta): (f64, f64), d: f64) -> T {
         let speed = w.abs() * PARTS.0 + PARTS.1 * eta / (rho_f * d);

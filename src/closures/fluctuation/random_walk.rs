@@ -7,7 +7,7 @@
 //! | `eps` | porosity there | 1 |
 //!
 //! Then `<u_x' u_z'> = -sigma^2` is the Reynolds stress of the mean flow, and `<u_x'^2> = 2 sigma^2`, `<u_z'^2> = sigma^2`.
-//! Drawn anew for all grains at once every `tau_t = w_d/U`, the turnover time of eddies of the water depth `w_d` [m] at the mean
+//! Drawn anew for all grains at once every `tau_t = w_d/U`, the turnover time of eddies of the water depth `w_d` \[m] at the mean
 //! velocity `U` [m/s]. Options for comparison: a third number across the flow, and `sigma` without the porosity.
 //! Source: Maurin et al. (2015), eq. (15)-(16), after Zannetti (1986).
 
@@ -43,7 +43,7 @@ fn yes() -> bool {
 }
 
 impl RandomWalk {
-    /// Standard deviation [m/s] for the Reynolds stress [Pa] at porosity `eps` in a fluid of density `rho_f` [kg/m3].
+    /// Standard deviation [m/s] for the Reynolds stress \[Pa] at porosity `eps` in a fluid of density `rho_f` [kg/m3].
     #[must_use]
     pub fn deviation(&self, reynolds: f64, eps: f64, rho_f: f64) -> f64 {
         let share = if self.per_porosity { eps } else { 1.0 };

@@ -32,7 +32,7 @@ pub struct Coulomb {
 }
 
 impl Coulomb {
-    /// Largest shear stress [Pa] that grains under the pressure `p_p` [Pa] carry at rest, and the stress at which they shear.
+    /// Largest shear stress \[Pa] that grains under the pressure `p_p` \[Pa] carry at rest, and the stress at which they shear.
     #[must_use]
     pub fn stress(&self, p_p: f64) -> f64 {
         self.mu_s * p_p

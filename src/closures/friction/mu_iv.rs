@@ -44,8 +44,8 @@ pub struct MuIv {
 }
 
 impl MuIv {
-    /// What the friction exceeds mu_s by, as stress [Pa] and its derivative with respect to the shear rate [Pa s], for the
-    /// particle pressure `p_p` [Pa] and the strain rate times viscosity `s` [Pa].
+    /// What the friction exceeds mu_s by, as stress \[Pa] and its derivative with respect to the shear rate [Pa s], for the
+    /// particle pressure `p_p` \[Pa] and the strain rate times viscosity `s` \[Pa].
     #[must_use]
     pub fn rise(&self, p_p: f64, s: f64) -> (f64, f64) {
         let half = self.i_0 * p_p;

@@ -44,7 +44,7 @@ pub struct ColebrookWhite {
 const SWEEPS: usize = 40;
 
 impl ColebrookWhite {
-    /// Darcy's friction factor for the Reynolds number `re` and the hydraulic diameter `diameter` [m].
+    /// Darcy's friction factor for the Reynolds number `re` and the hydraulic diameter `diameter` \[m].
     #[must_use]
     pub fn factor<T: Real>(&self, re: T, diameter: T) -> T {
         let relative = T::constant(self.roughness) / (diameter * 3.7);

@@ -81,7 +81,7 @@ impl LiSawamoto {
         if self.below_packed == BelowPacked::Clipped && clear.value() < 0.0 { T::constant(0.0) } else { clear }
     }
 
-    /// Mixing lengths [m] at the `faces` [m], for the solid fractions `phi` of the cells between them.
+    /// Mixing lengths \[m] at the `faces` \[m], for the solid fractions `phi` of the cells between them.
     /// `lengths` has one entry per face, `phi` one fewer.
     pub fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]) {
         let packed = match self.below_packed {

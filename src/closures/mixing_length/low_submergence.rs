@@ -42,7 +42,7 @@ pub struct LowSubmergence {
 }
 
 impl LowSubmergence {
-    /// Mixing length [m] at the solid fraction `phi`.
+    /// Mixing length \[m] at the solid fraction `phi`.
     #[must_use]
     pub fn length<T: Real>(&self, phi: T) -> T {
         let gap = -phi + self.phi_max;
@@ -50,7 +50,7 @@ impl LowSubmergence {
         if length.value() > self.least { length } else { T::constant(self.least) }
     }
 
-    /// Mixing lengths [m] at the faces, for the solid fractions `phi` of the cells between them.
+    /// Mixing lengths \[m] at the faces, for the solid fractions `phi` of the cells between them.
     pub fn fill(&self, phi: &[f64], lengths: &mut [f64]) {
         for (f, length) in lengths.iter_mut().enumerate() {
             let (below, above) = (phi.get(f.wrapping_sub(1)), phi.get(f));

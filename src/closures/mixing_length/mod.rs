@@ -30,7 +30,7 @@ pub enum MixingLength {
 }
 
 impl MixingLength {
-    /// Mixing lengths [m] at the `faces` [m], ascending from the wall, for the solid fractions `phi` of the cells between
+    /// Mixing lengths \[m] at the `faces` \[m], ascending from the wall, for the solid fractions `phi` of the cells between
     /// them. `lengths` has one entry per face, `phi` one fewer.
     pub fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]) {
         match self {
@@ -54,7 +54,7 @@ impl MixingLength {
         }
     }
 
-    /// Mixing length [m] for the integral of [`Self::clearance`] from the wall [m] and the solid fraction `phi` there.
+    /// Mixing length \[m] for the integral of [`Self::clearance`] from the wall \[m] and the solid fraction `phi` there.
     #[must_use]
     pub fn length<T: Real>(&self, integral: T, phi: T) -> T {
         let kappa = match self {

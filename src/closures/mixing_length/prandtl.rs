@@ -34,7 +34,7 @@ pub struct Prandtl {
 }
 
 impl Prandtl {
-    /// Mixing length [m] at the distance `z` [m] from the wall.
+    /// Mixing length \[m] at the distance `z` \[m] from the wall.
     #[must_use]
     pub fn length(&self, z: f64) -> f64 {
         self.kappa * z

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | free fall | `d sqrt(rho_p/P_p)` |
 //! | viscous | `eta/P_p` |
-//! | turbulent | `d sqrt(rho_f C/P_p)`, `C = (4/3)(0.3 + 18.3/Re)`, `Re = rho_f |U - u_p| d/eta` |
+//! | turbulent | `d sqrt(rho_f C/P_p)`, `C = (4/3)(0.3 + 18.3/Re)`, `Re = rho_f \|U - u_p\| d/eta` |
 //!
 //! The largest of the three counts. The source writes the dimensional drag coefficient under the last root; only a pure
 //! number gives a time, and C is that of the same drag law for a single grain at the local slip. `St` is the ratio of the
@@ -65,7 +65,7 @@ pub enum Regime {
 /// What the times need to know. Any consistent units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grain {
-    /// diameter [m]
+    /// diameter \[m]
     pub d: f64,
     /// density [kg/m3]
     pub rho_p: f64,
@@ -76,7 +76,7 @@ pub struct Grain {
 }
 
 impl Grain {
-    /// Inverse times [1/s] of free, viscous and turbulent fall under the pressure `p` [Pa] at the slip `w` [m/s].
+    /// Inverse times [1/s] of free, viscous and turbulent fall under the pressure `p` \[Pa] at the slip `w` [m/s].
     #[must_use]
     pub fn rates<T: Real>(&self, p: T, w: T) -> [T; 3] {
         let inverse = dallavalle::inverse_number(w, (self.rho_f, self.eta), self.d);
@@ -86,7 +86,7 @@ impl Grain {
 }
 
 impl Rearrangement {
-    /// The inverse of the time that counts [1/s], under the pressure `p` [Pa] at the slip `w` [m/s].
+    /// The inverse of the time that counts [1/s], under the pressure `p` \[Pa] at the slip `w` [m/s].
     #[must_use]
     pub fn rate<T: Real>(&self, grain: &Grain, p: T, w: T) -> T {
         match self {

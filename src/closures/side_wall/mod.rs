@@ -66,7 +66,7 @@ impl SideWall {
         }
     }
 
-    /// The stress of one wall, for the velocity `u` [m/s], the width `width` [m] and the kinematic viscosity `nu` [m2/s].
+    /// The stress of one wall, for the velocity `u` [m/s], the width `width` \[m] and the kinematic viscosity `nu` [m2/s].
     #[must_use]
     pub fn stress(self, u: f64, width: f64, nu: f64) -> WallStress {
         if self == Self::None {

@@ -34,7 +34,7 @@ pub struct Rough {
 }
 
 impl Rough {
-    /// Elevation z_0 [m] at which the logarithmic profile vanishes.
+    /// Elevation z_0 \[m] at which the logarithmic profile vanishes.
     #[must_use]
     pub fn roughness_length(&self) -> f64 {
         self.k_s / 30.0

@@ -40,7 +40,7 @@ pub trait Quad: Copy {
     fn with_last(self, other: Self) -> Self;
 }
 
-/// What acts on one grain: force [N], and torque over radius [N]; the last numbers are 0.
+/// What acts on one grain: force \[N], and torque over radius \[N]; the last numbers are 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[repr(C, align(64))]
 pub struct Load(pub [Row; 2]);

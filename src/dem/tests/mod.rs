@@ -14,7 +14,7 @@ use crate::closures::contact::Tension;
 use crate::models::grains::Trial;
 use crate::models::grains::case::Trial as Which;
 
-/// Radius [m] and density [kg/m3] of the paper's grains.
+/// Radius \[m] and density [kg/m3] of the paper's grains.
 const R: f64 = 3e-3;
 const RHO: f64 = 2500.0;
 const G: f64 = 9.81;

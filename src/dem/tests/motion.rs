@@ -5,7 +5,7 @@ use crate::models::grains::Trial;
 use crate::models::grains::trials::{found, motion};
 use crate::result::quantity as q;
 
-/// Overlap of a grain at rest on a floor [m].
+/// Overlap of a grain at rest on a floor \[m].
 fn sunk() -> f64 {
     Grain::at_rest([0.0; 3], R, RHO).mass() * G / 5e3
 }

@@ -3,7 +3,7 @@
 mod solve;
 mod study;
 
-pub use solve::{Solution, equations, run};
+use solve::{equations, run};
 
 use crate::case::tables::{BinghamFluid, BinghamKindModel, PlaneFlow, RegularisationTable, YieldGrid};
 use crate::closures::regularisation::Regularisation;

@@ -15,7 +15,7 @@ const EDDIES: f64 = 0.1;
 /// Stiffness over weight and size of a grain, k_n/((rho_p - rho_f) g d^2), of the reference flow.
 const STIFFNESS: f64 = 1e4 / (1500.0 * 9.81 * 6e-3 * 6e-3);
 
-/// Thickness of the packed bed [m].
+/// Thickness of the packed bed \[m].
 fn thickness(flow: &Coupled) -> f64 {
     let bed = &flow.bed;
     let across = if bed.side_walls { bed.size[1].min(bed.d) } else { bed.size[1] };

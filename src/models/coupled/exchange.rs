@@ -61,19 +61,19 @@ pub struct Exchange {
     pub(super) worst: f64,
     /// whether the fluid is stepped forward
     explicit: bool,
-    /// longest stable explicit step of the fluid in the last period [s]
+    /// longest stable explicit step of the fluid in the last period \[s]
     bearable: f64,
     /// slope of the drag on a mobile grain over its mass, where that is largest [1/s]
     steepest: f64,
     /// solid volume that crosses a unit of width in a unit of time [m2/s]
     rate: f64,
     volumes: Vec<f64>,
-    /// Reynolds stress at the centres of the cells after the last step [Pa]
+    /// Reynolds stress at the centres of the cells after the last step \[Pa]
     reynolds: Vec<f64>,
 }
 
 impl Exchange {
-    /// Fluid at rest up to the surface `top` [m], for `grains` grains.
+    /// Fluid at rest up to the surface `top` \[m], for `grains` grains.
     ///
     /// # Errors
     /// [`ColumnError`] if there can be no such column.
@@ -128,32 +128,32 @@ impl Exchange {
         self.rate
     }
 
-    /// Reynolds stress of the cells [Pa].
+    /// Reynolds stress of the cells \[Pa].
     #[must_use]
     pub fn reynolds(&self) -> &[f64] {
         &self.reynolds
     }
 
-    /// Height of a cell [m].
+    /// Height of a cell \[m].
     #[must_use]
     pub fn cell_height(&self) -> f64 {
         self.height
     }
 
-    /// Longest step of the grains that the drag on them bears, as they were last looked at [s]: it is taken at the start of a step.
+    /// Longest step of the grains that the drag on them bears, as they were last looked at \[s]: it is taken at the start of a step.
     #[must_use]
     pub fn drag_limit(&self) -> f64 {
         2.0 / self.steepest
     }
 
-    /// Longest stable step of the fluid [s] if it is stepped forward.
+    /// Longest stable step of the fluid \[s] if it is stepped forward.
     #[must_use]
     pub fn fluid_limit(&self) -> Option<f64> {
         self.explicit.then_some(self.bearable)
     }
 
     /// Averages the grains over the cells: solid fraction and velocity, drag and its slope at the present velocities, and the
-    /// impulse that the fluid gave since the last look, `dt` [s] being the step of the grains.
+    /// impulse that the fluid gave since the last look, `dt` \[s] being the step of the grains.
     pub fn look<C: ContactLaw>(&mut self, engine: &Engine<C>, dt: f64) {
         let Self { medium, drag, slope, given, felt, volumes, .. } = self;
         let cells = medium.phi.len();
@@ -207,7 +207,7 @@ impl Exchange {
         }
     }
 
-    /// Advances the fluid by `period` [s] in `steps` steps with the grains as they were last looked at.
+    /// Advances the fluid by `period` \[s] in `steps` steps with the grains as they were last looked at.
     ///
     /// # Errors
     /// [`ColumnError`] of the step that failed.
@@ -352,7 +352,7 @@ fn relative(balance: &Balance) -> f64 {
     balance.relative().abs()
 }
 
-/// Volumes of a sphere of radius `r` at `z` in cells of height `h` [m], the first of them, and their sum.
+/// Volumes of a sphere of radius `r` at `z` in cells of height `h` \[m], the first of them, and their sum.
 fn shares(z: f64, r: f64, h: f64, cells: usize, volumes: &mut Vec<f64>) -> (usize, f64) {
     volumes.clear();
     let first = ((z - r).max(0.0) / h) as usize;

@@ -17,21 +17,21 @@ pub struct Felt {
     pub(super) velocity: Vec<f64>,
     /// of [`DallavalleGrain::size`] [kg/m], 0 above the surface
     pub(super) size: Vec<f64>,
-    /// of each grain by name: fluctuation of the fluid [m/s], and the sum of its drag along x over the steps [N]
+    /// of each grain by name: fluctuation of the fluid [m/s], and the sum of its drag along x over the steps \[N]
     memory: Vec<[AtomicU64; 4]>,
 }
 
 /// Drag on a grain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dragged {
-    /// force [N]
+    /// force \[N]
     pub force: Point,
     /// change of the force along x with the velocity of the fluid [kg/s]
     pub slope: f64,
 }
 
 impl Felt {
-    /// Clear fluid at rest in `cells` cells of height `height` [m], for `grains` grains.
+    /// Clear fluid at rest in `cells` cells of height `height` \[m], for `grains` grains.
     #[must_use]
     pub fn new(law: DallavalleGrain, viscous: f64, cells: usize, height: f64, grains: usize) -> Self {
         let memory = (0..grains).map(|_| Default::default()).collect();
@@ -45,7 +45,7 @@ impl Felt {
         }
     }
 
-    /// Cell of the elevation `z` [m]; below the bottom the lowest, above the surface one more than there are.
+    /// Cell of the elevation `z` \[m]; below the bottom the lowest, above the surface one more than there are.
     #[inline(always)]
     #[must_use]
     pub fn cell(&self, z: f64) -> usize {
@@ -77,7 +77,7 @@ impl Felt {
         }
     }
 
-    /// Takes the sum of the drag along x on grain `id` over the steps since it was last taken [N].
+    /// Takes the sum of the drag along x on grain `id` over the steps since it was last taken \[N].
     pub fn take(&mut self, id: u32) -> f64 {
         f64::from_bits(std::mem::take(self.memory[id as usize][3].get_mut()))
     }

@@ -20,7 +20,7 @@ const FEW: usize = 4;
 /// What is held, and what it is judged by.
 #[derive(Debug)]
 pub struct Hold {
-    /// mean way of a layer at rest [m]
+    /// mean way of a layer at rest \[m]
     creep: f64,
     /// coupling periods between two looks, and before the first
     every: u64,
@@ -29,11 +29,11 @@ pub struct Hold {
     periods: [f64; 2],
     /// grains of the bottom, which come first and are fixed for good
     fixed: usize,
-    /// grains below are held [m]
+    /// grains below are held \[m]
     level: f64,
-    /// the highest of these levels so far [m]
+    /// the highest of these levels so far \[m]
     highest: f64,
-    /// centres of all grains at the last look, by name [m]
+    /// centres of all grains at the last look, by name \[m]
     then: Vec<Point>,
 }
 
@@ -59,12 +59,12 @@ impl Hold {
         Some(hold)
     }
 
-    /// Elevation below which grains are held [m].
+    /// Elevation below which grains are held \[m].
     pub fn level(&self) -> f64 {
         self.level
     }
 
-    /// Elevation below which contacts were not looked at, at some time [m]; `None` if all were.
+    /// Elevation below which contacts were not looked at, at some time \[m]; `None` if all were.
     pub fn blind(&self) -> Option<f64> {
         (self.highest > 0.0).then_some(self.highest + 0.5 * self.d)
     }

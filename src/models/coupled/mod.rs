@@ -1,4 +1,4 @@
-//! Grains in a fluid: Maurin et al. (2015). The grains are those of [`super::engine`], the fluid that of [`crate::column`].
+//! Grains in a fluid: Maurin et al. (2015). The grains are those of [`crate::dem`], the fluid that of [`crate::column`].
 //!
 //! ```text
 //!  grains ─► exchange.look (averages: φ, drag, what was given) ─► exchange.advance (column) ─► felt ─► grains
@@ -24,7 +24,5 @@ mod tests;
 mod theory;
 
 pub use case::FluidScheme;
-pub use exchange::Exchange;
-pub use felt::{Dragged, Felt};
 pub use problem::{Coupled, Surface};
-pub use run::{equations, run};
+use run::{equations, run};

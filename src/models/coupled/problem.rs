@@ -20,7 +20,7 @@ use crate::result::{CheckpointError, Failure, Figure, Outcome};
 pub struct Coupled {
     /// the grains, their bed and channel
     pub bed: GrainBed,
-    /// largest elevation of the fixed grains, and the step between elevations [m]
+    /// largest elevation of the fixed grains, and the step between elevations \[m]
     pub relief: (f64, f64),
     /// density of the fluid [kg/m3]
     pub rho_f: f64,
@@ -38,15 +38,15 @@ pub struct Coupled {
     pub side_wall: SideWall,
     /// eddies that a grain meets
     pub fluctuation: Fluctuation,
-    /// time between two solutions of the fluid [s]
+    /// time between two solutions of the fluid \[s]
     pub coupling_period: f64,
     /// steps of the fluid in that time
     pub fluid_steps: u32,
     /// how it is stepped
     pub fluid_scheme: FluidScheme,
-    /// mean way of a layer that is held, in diameters, the time in which it is gone [s], and the time from which on [s]
+    /// mean way of a layer that is held, in diameters, the time in which it is gone \[s], and the time from which on \[s]
     pub hold: Option<[f64; 3]>,
-    /// time between two samples [s]
+    /// time between two samples \[s]
     pub sample_period: f64,
     /// standard error of the transport rate, relative to it, with which the run ends
     pub known_to: Option<f64>,
@@ -55,9 +55,9 @@ pub struct Coupled {
 /// Where the free surface is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Surface {
-    /// over the mean centre of the fixed grains [m]
+    /// over the mean centre of the fixed grains \[m]
     Height(f64),
-    /// over the level of the bed at rest [m]
+    /// over the level of the bed at rest \[m]
     Depth(f64),
 }
 
@@ -68,7 +68,7 @@ impl Coupled {
         self.eta / self.rho_f
     }
 
-    /// Stress scale (rho_p - rho_f) g d [Pa].
+    /// Stress scale (rho_p - rho_f) g d \[Pa].
     #[must_use]
     pub fn stress_scale(&self) -> f64 {
         (self.bed.rho_p - self.rho_f) * self.bed.g * self.bed.d

@@ -235,12 +235,12 @@ impl Run<'_> {
         self.made.is_multiple_of(self.sampled)
     }
 
-    /// Simulated time [s].
+    /// Simulated time \[s].
     pub(super) fn time(&self) -> f64 {
         self.made as f64 * self.flow.coupling_period
     }
 
-    /// Level of the bed [m], depth of the water over it [m], and its mean velocity [m/s].
+    /// Level of the bed \[m], depth of the water over it \[m], and its mean velocity [m/s].
     pub(super) fn water(&self) -> [f64; 3] {
         let (phi, height) = (self.exchange.phi(), self.exchange.cell_height());
         let level = level(phi, height, self.flow.bed.d);

@@ -28,7 +28,7 @@ pub(super) fn gravity(flow: &Coupled) -> Point {
     [bed.g * bed.beta.sin(), 0.0, -(1.0 - flow.rho_f / bed.rho_p) * bed.g * bed.beta.cos()]
 }
 
-/// Highest cell up to which the solid fraction, averaged over a diameter, is half of its largest value; as a level [m].
+/// Highest cell up to which the solid fraction, averaged over a diameter, is half of its largest value; as a level \[m].
 pub(super) fn level(phi: &[f64], height: f64, d: f64) -> f64 {
     let half = ((0.5 * d / height).round() as usize).max(1);
     let mean = |i: usize| {

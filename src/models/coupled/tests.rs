@@ -1,10 +1,11 @@
 //! Grains and fluid against each other: terminal velocity, momentum, steady states, restarts.
 
 use super::exchange::Exchange;
+use super::felt::Felt;
 use super::record::Record;
+use super::run;
 use super::run::Run;
 use super::scene::{gravity, level, relief};
-use super::{Felt, run};
 use crate::closures::contact::{LinearSpring, Tension};
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::fluctuation::{Fluctuation, RandomWalk};

@@ -3,7 +3,7 @@
 //! | column | from the grains | laws at their state |
 //! |---|---|---|
 //! | `radial_distribution` | `g₀ = (p/(ρ_p φ T) - 1)/(2 φ (1 + e))` | with and without friction |
-//! | `viscosity_factor` | `F₂ = τ_p/(ρ_p d T^½ |du_p/dz|)` | with and without saltation |
+//! | `viscosity_factor` | `F₂ = τ_p/(ρ_p d T^½ \|du_p/dz\|)` | with and without saltation |
 //! | `conductivity_factor` | `F₃ = -q/(ρ_p d T^½ dT/dz)` | with and without saltation |
 //! | `contact_loss_factor` | `F₄ = d/(ρ_p T^(3/2))` times what the budget leaves | with e_eff and with e |
 //! | `drag_loss_factor` | `d/(ρ_p T^(3/2))` times its work on the fluctuations | quadratic and linear |
@@ -56,7 +56,7 @@ impl<'a> Assessment<'a> {
         (0..self.z.len()).filter(asked).collect()
     }
 
-    /// Slope over one diameter `d` [m].
+    /// Slope over one diameter `d` \[m].
     fn slope(&self, quantity: &Quantity, row: usize, d: f64) -> Option<f64> {
         let dz = self.z.get(1)? - self.z[0];
         let half = ((0.5 * d / dz).round() as usize).max(1);

@@ -45,13 +45,13 @@ impl Solution {
         Ok(Self { inertial_number, rate, h: film.h })
     }
 
-    /// Velocity [m/s] at z [m].
+    /// Velocity [m/s] at z \[m].
     #[must_use]
     pub fn velocity(&self, z: f64) -> f64 {
         2.0 / 3.0 * self.rate * (self.h.powf(1.5) - (self.h - z).max(0.0).powf(1.5))
     }
 
-    /// Shear rate [1/s] at z [m].
+    /// Shear rate [1/s] at z \[m].
     #[must_use]
     pub fn shear_rate(&self, z: f64) -> f64 {
         self.rate * (self.h - z).max(0.0).sqrt()

@@ -33,13 +33,13 @@ tables! {
 pub struct GranularFilm {
     /// density of the grains [kg/m3]
     pub rho_p: f64,
-    /// diameter of the grains [m]
+    /// diameter of the grains \[m]
     pub d: f64,
     /// solid fraction
     pub phi: f64,
-    /// thickness of the film [m]
+    /// thickness of the film \[m]
     pub h: f64,
-    /// slope angle [rad]
+    /// slope angle \[rad]
     pub beta: f64,
     /// gravity [m/s2]
     pub g: f64,

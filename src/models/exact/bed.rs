@@ -27,13 +27,13 @@ pub struct LaminarBed {
     pub eta: f64,
     /// density of the grains [kg/m3]
     pub rho_p: f64,
-    /// diameter of the grains [m]
+    /// diameter of the grains \[m]
     pub d: f64,
-    /// bed level [m]
+    /// bed level \[m]
     pub h_p: f64,
     /// solid fraction of the bed
     pub phi: f64,
-    /// flow height [m]
+    /// flow height \[m]
     pub h: f64,
     /// gravity [m/s2]
     pub g: f64,
@@ -52,7 +52,7 @@ pub struct LaminarBed {
 }
 
 impl LaminarBed {
-    /// Stress scale (rho_p - rho_f) g H [Pa] of Chauchat & Medale (2010).
+    /// Stress scale (rho_p - rho_f) g H \[Pa] of Chauchat & Medale (2010).
     #[must_use]
     pub fn stress_scale(&self) -> f64 {
         (self.rho_p - self.rho_f) * self.g * self.h

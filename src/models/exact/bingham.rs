@@ -54,32 +54,32 @@ impl Solution {
         }
     }
 
-    /// Elevation [m] of the lower edge of the plug; 0 where nothing moves.
+    /// Elevation \[m] of the lower edge of the plug; 0 where nothing moves.
     #[must_use]
     pub fn edge(&self) -> f64 {
         0.5 * self.y * self.h
     }
 
-    /// Distance [m] from the centre to the yield surface.
+    /// Distance \[m] from the centre to the yield surface.
     #[must_use]
     pub fn half_plug(&self) -> f64 {
         0.5 * (1.0 - self.y) * self.h
     }
 
-    /// Velocity [m/s] at z [m].
+    /// Velocity [m/s] at z \[m].
     #[must_use]
     pub fn velocity(&self, z: f64) -> f64 {
         let wall = z.min(self.h - z).clamp(0.0, self.edge());
         self.gradient / (2.0 * self.eta) * wall * (2.0 * self.edge() - wall)
     }
 
-    /// Shear stress [Pa] at z [m].
+    /// Shear stress \[Pa] at z \[m].
     #[must_use]
     pub fn stress(&self, z: f64) -> f64 {
         self.gradient * (0.5 * self.h - z)
     }
 
-    /// Magnitude of the shear rate [1/s] at z [m].
+    /// Magnitude of the shear rate [1/s] at z \[m].
     #[must_use]
     pub fn shear_rate(&self, z: f64) -> f64 {
         self.gradient / self.eta * (self.edge() - z.min(self.h - z)).max(0.0)

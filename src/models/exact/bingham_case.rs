@@ -38,9 +38,9 @@ pub struct BinghamPlane {
     pub rho: f64,
     /// plastic viscosity [Pa s]
     pub eta: f64,
-    /// yield stress [Pa]
+    /// yield stress \[Pa]
     pub tau_0: f64,
-    /// distance of the planes [m]
+    /// distance of the planes \[m]
     pub h: f64,
     /// what drives the flow
     pub drive: BinghamDrive,

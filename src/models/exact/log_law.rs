@@ -14,7 +14,7 @@ use crate::units::significant;
 /// The closed form with its constants, in SI.
 #[derive(Clone, Copy, Debug)]
 pub struct Solution {
-    /// roughness length [m]
+    /// roughness length \[m]
     pub z_0: f64,
     scale: f64,
     h: f64,
@@ -27,13 +27,13 @@ impl Solution {
         Self { z_0: wall.wall.roughness_length(), scale: wall.u_star / wall.mixing_length.kappa, h: wall.h }
     }
 
-    /// Velocity [m/s] at z [m]; 0 below the roughness length.
+    /// Velocity [m/s] at z \[m]; 0 below the roughness length.
     #[must_use]
     pub fn velocity(&self, z: f64) -> f64 {
         self.scale * (z / self.z_0).ln().max(0.0)
     }
 
-    /// Velocity gradient [1/s] at z [m].
+    /// Velocity gradient [1/s] at z \[m].
     #[must_use]
     pub fn shear_rate(&self, z: f64) -> f64 {
         self.scale / z

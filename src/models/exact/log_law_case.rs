@@ -38,7 +38,7 @@ pub struct RoughWall {
     pub rho_f: f64,
     /// viscosity [Pa s]
     pub eta: f64,
-    /// height up to which the profile is given [m]
+    /// height up to which the profile is given \[m]
     pub h: f64,
     /// friction velocity [m/s]
     pub u_star: f64,

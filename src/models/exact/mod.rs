@@ -24,10 +24,10 @@ use bed_results::closure_name;
 /// Levels between two looks at the watch.
 const BETWEEN_LOOKS: usize = 512;
 
-/// A column of the profile: its quantity and its value at an elevation [m].
+/// A column of the profile: its quantity and its value at an elevation \[m].
 pub(in crate::models) type Column<'a> = (&'static Quantity, Box<dyn Fn(f64) -> Option<f64> + 'a>);
 
-/// Evaluates `columns` at the levels `z` [m]. `None` if the watch asked to stop.
+/// Evaluates `columns` at the levels `z` \[m]. `None` if the watch asked to stop.
 pub(in crate::models) fn tabulate(
     z: Vec<f64>,
     columns: &[Column<'_>],

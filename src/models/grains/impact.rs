@@ -14,13 +14,13 @@ use crate::units::significant;
 /// What an impact was, and what the closed forms say.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
-    /// time step [s]
+    /// time step \[s]
     pub dt: f64,
     /// normal restitution
     pub restitution: f64,
-    /// duration of the contact [s]
+    /// duration of the contact \[s]
     pub duration: f64,
-    /// closed form of the duration [s]
+    /// closed form of the duration \[s]
     pub expected_duration: f64,
     /// tangential velocity after, relative to the target, of the centre [m/s]
     pub tangential: f64,

@@ -1,9 +1,9 @@
 //! Grains one by one without a fluid: a bed, one impact, verification cases.
 
-pub mod bed;
+mod bed;
 pub mod case;
-pub mod impact;
+pub(crate) mod impact;
 mod problem;
-pub mod trials;
+pub(crate) mod trials;
 
 pub use problem::{Impact, Trial};

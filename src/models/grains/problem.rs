@@ -13,13 +13,13 @@ use crate::result::{CheckpointError, Failure, Outcome};
 /// The impact of one sphere. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Impact {
-    /// diameter [m]
+    /// diameter \[m]
     pub d: f64,
     /// density [kg/m3]
     pub rho_p: f64,
     /// velocity before [m/s]
     pub velocity: f64,
-    /// angle with the normal [rad]
+    /// angle with the normal \[rad]
     pub angle: f64,
     /// angular velocity before [1/s]
     pub spin: f64,
@@ -36,7 +36,7 @@ pub struct Impact {
 pub struct Trial {
     /// what they are held against
     pub trial: Which,
-    /// diameter [m]
+    /// diameter \[m]
     pub d: f64,
     /// density [kg/m3]
     pub rho_p: f64,

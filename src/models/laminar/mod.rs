@@ -3,19 +3,26 @@
 //!
 //! Units of the solvers: H, S = (rho_p - rho_f) g H (or any stress), S H/eta; the mesh runs from 0 to 1.
 
-pub mod bed;
-pub mod element;
-pub mod mesh;
+mod bed;
+pub(super) mod element;
+pub(super) mod mesh;
 pub(super) mod outcome;
-pub mod packing;
+mod packing;
 mod problem;
-pub mod single;
+pub(super) mod single;
 mod slipping;
 mod spreading;
 mod study;
 #[cfg(test)]
 mod tests;
-pub mod two_fluid;
+mod two_fluid;
 
-pub use outcome::{equations, run};
+use outcome::equations;
+pub(super) use outcome::run;
 pub use problem::RegularisedBed;
+
+/// The solver in its own units: for `benches/laminar.rs` alone.
+#[doc(hidden)]
+pub mod bench {
+    pub use super::bed::{Bed, Nodes};
+}

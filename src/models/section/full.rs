@@ -73,8 +73,6 @@ struct Pressures {
 pub struct Whole {
     /// unknowns, strains, stresses as the section has them: means along x
     pub section: Solved<2>,
-    /// number of unknowns of the velocity
-    pub unknowns: usize,
     /// largest difference of the velocity along x between two planes across the flow, over the largest velocity
     pub uneven: f64,
     /// largest velocity across the flow, over the largest along it
@@ -215,7 +213,6 @@ impl<'a> Full<'a> {
                 imbalance: solved.imbalance,
                 lambda: solved.lambda,
             },
-            unknowns: self.programme.size(),
             uneven: uneven / largest,
             across: across / largest,
             pressure: self.pressure(pressure),

@@ -67,8 +67,6 @@ pub struct Mesh {
     pub rows: usize,
     /// rows below the bed level
     pub bed_rows: usize,
-    /// rows below the yield line, 0 where no line is given
-    pub still_rows: usize,
     /// eta of the node columns
     pub eta: Vec<f64>,
     /// z of the nodes
@@ -137,7 +135,7 @@ impl Mesh {
                 z[2 * bed_rows * across + i] = level;
             }
         }
-        Self { shape, columns, rows, bed_rows, still_rows, eta, z }
+        Self { shape, columns, rows, bed_rows, eta, z }
     }
 
     /// eta of the node columns.

@@ -35,7 +35,7 @@ pub enum Contents {
         rho: f64,
         /// plastic viscosity [Pa s]
         eta: f64,
-        /// yield stress [Pa]
+        /// yield stress \[Pa]
         tau_0: f64,
     },
     /// a fluid over a bed of grains
@@ -47,7 +47,7 @@ pub enum Contents {
 pub struct DuctFlow {
     /// outline
     pub outline: Outline,
-    /// height, or diameter [m]
+    /// height, or diameter \[m]
     pub h: f64,
     /// fall of pressure along the flow, -dp/dx [Pa/m]
     pub gradient: f64,
@@ -64,7 +64,7 @@ pub struct DuctFlow {
 /// A square cavity under a sliding lid. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CavityFlow {
-    /// side [m]
+    /// side \[m]
     pub h: f64,
     /// velocity of the lid [m/s]
     pub lid: f64,
@@ -72,7 +72,7 @@ pub struct CavityFlow {
     pub rho: f64,
     /// plastic viscosity [Pa s]
     pub eta: f64,
-    /// yield stress [Pa]
+    /// yield stress \[Pa]
     pub tau_0: f64,
     /// how the yield stress is smoothed; lambda in units of the velocity of the lid over the side
     pub regularisation: Regularisation,
@@ -104,7 +104,7 @@ pub struct SectionMethod {
 }
 
 impl DuctFlow {
-    /// Stress scale [Pa]: (rho_p - rho_f) g H for a bed, -dp/dx H otherwise.
+    /// Stress scale \[Pa]: (rho_p - rho_f) g H for a bed, -dp/dx H otherwise.
     #[must_use]
     pub fn stress_scale(&self) -> f64 {
         match &self.contents {

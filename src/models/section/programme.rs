@@ -166,13 +166,4 @@ impl<const D: usize, const N: usize> Programme<D, N> {
         let dot = |a: &[f64; D], b: &[f64; D]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
         self.points.iter().zip(g).zip(q).map(|((p, g), q)| p.carried * (length(g) - dot(q, g))).sum()
     }
-
-    /// `x K x/2 - b x + sum t |B x + c|`.
-    #[must_use]
-    pub fn value(&self, x: &[f64], g: &[[f64; D]]) -> f64 {
-        let mut kx = vec![0.0; self.size()];
-        self.pattern.multiply(&self.base, x, &mut kx);
-        let smooth: f64 = (0..x.len()).map(|i| x[i] * (0.5 * kx[i] - self.load[i])).sum();
-        smooth + self.points.iter().zip(g).map(|(p, g)| p.carried * length(g)).sum::<f64>()
-    }
 }

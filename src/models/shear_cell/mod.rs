@@ -1,4 +1,4 @@
-//! Grains that collide between two walls, without fluid or gravity: what is said of the flow that [`flow`] solves.
+//! Grains that collide between two walls, without fluid or gravity: what is said of the flow that `flow` solves.
 
 pub mod case;
 mod flow;
@@ -15,8 +15,8 @@ use flow::{Flow, Node, guess};
 /// Solves the flow on `cells` intervals.
 ///
 /// # Errors
-/// [`SolveError::NotConverged`].
-pub fn run(cell: &ShearCell, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
+/// `SolveError::NotConverged`.
+fn run(cell: &ShearCell, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     if watch.see(&Snapshot { stage: "shear cell", fraction: 0.0, quantity: None }).is_break() {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
     }
@@ -73,7 +73,7 @@ fn profile(cell: &ShearCell, flow: &Flow) -> Result<Profile, Failure> {
 
 /// The equations that are solved, with their numbers.
 #[must_use]
-pub fn equations(cell: &ShearCell) -> String {
+fn equations(cell: &ShearCell) -> String {
     let n = |x: f64| significant(x, 5);
     let parts: Vec<String> =
         cell.granular.parts().iter().map(|info| format!("              {}\n", info.equation)).collect();

@@ -14,9 +14,9 @@ use crate::result::{Failure, Outcome};
 pub struct ShearCell {
     /// density of the grains [kg/m3]
     pub rho_p: f64,
-    /// diameter of the grains [m]
+    /// diameter of the grains \[m]
     pub d: f64,
-    /// distance of the walls [m]
+    /// distance of the walls \[m]
     pub h: f64,
     /// solid fraction, mean over the gap
     pub phi: f64,

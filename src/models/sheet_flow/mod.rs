@@ -1,32 +1,43 @@
 //! Sheet flow in two layers: a suspension in a turbulent flow, over a bed that shears as dense granular flow.
 //!
-//! [`suspension`] is the layer above the interface, [`bed`] the one below it, [`column`] what joins them. The unknowns of the
+//! `suspension` is the layer above the interface, `bed` the one below it, `column` what joins them. The unknowns of the
 //! bed live on shares of its solid volume, where the particle pressure is known and cells keep their grains; the mobilised
 //! friction r = tau_p/P_p is one of them, so that a bed at rest is an ordinary case. `docs/sheet-flow.md` derives all of it.
 //! Source: Revil-Baudard & Chauchat (2013), J. Geophys. Res. Oceans 118, 619-634.
 
-pub mod bed;
+mod bed;
 pub mod case;
-pub mod column;
+mod column;
 mod equations;
 mod figures;
-pub mod flow;
-pub mod iteration;
-pub mod layers;
-pub mod linear;
-pub mod mesh;
-pub mod newton;
+mod flow;
+mod iteration;
+mod layers;
+mod linear;
+mod mesh;
+mod newton;
 mod outcome;
 mod problem;
 mod profile;
-pub mod solve;
-pub mod start;
+mod solve;
+mod start;
 mod study;
-pub mod suspension;
+mod suspension;
 #[cfg(test)]
 mod tests;
 
 pub use case::{BedReading, SheetMethod};
-pub use equations::equations;
-pub use outcome::run;
+use equations::equations;
+use outcome::run;
 pub use problem::SheetFlow;
+
+/// The solver in its own units: for `benches/sheet.rs` alone.
+#[doc(hidden)]
+pub mod bench {
+    pub use super::column::Setting;
+    pub use super::flow::Flow;
+    pub use super::iteration::Pace;
+    pub use super::layers::Layers;
+    pub use super::newton::{Column, Stalled};
+    pub use super::solve::{REST, solve};
+}

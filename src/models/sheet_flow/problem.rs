@@ -31,17 +31,17 @@ pub struct SheetFlow {
     pub eta: f64,
     /// density of the grains [kg/m3]
     pub rho_p: f64,
-    /// diameter of the grains [m]
+    /// diameter of the grains \[m]
     pub d: f64,
     /// gravity [m/s2]
     pub g: f64,
-    /// flow height [m]
+    /// flow height \[m]
     pub height: f64,
-    /// bed level [m]
+    /// bed level \[m]
     pub level: f64,
     /// what the bed level is
     pub reading: BedReading,
-    /// wanted fluid stress at the bed level [Pa]
+    /// wanted fluid stress at the bed level \[Pa]
     pub tau_b: Option<f64>,
     /// sine of the slope
     pub sine: Option<f64>,
@@ -63,18 +63,18 @@ pub struct SheetFlow {
     pub suspension: Suspension,
     /// regularisation [1/s]; 0 for the exact yield
     pub lambda: f64,
-    /// solid volume under the interface without the buoyancy of the viscous stress [m]
+    /// solid volume under the interface without the buoyancy of the viscous stress \[m]
     pub cut: f64,
     /// whether it becomes deeper where the equations change type below it
     pub deepen_cut: bool,
     /// how it is solved
     pub method: SheetMethod,
-    /// step of pseudo-time [s], relative residual and number of turns of the iteration
+    /// step of pseudo-time \[s], relative residual and number of turns of the iteration
     pub pace: (f64, f64, usize),
 }
 
 impl SheetFlow {
-    /// Stress scale (rho_p - rho_f) g d [Pa].
+    /// Stress scale (rho_p - rho_f) g d \[Pa].
     #[must_use]
     pub fn stress_scale(&self) -> f64 {
         (self.rho_p - self.rho_f) * self.g * self.d

@@ -74,8 +74,6 @@ pub struct Face<T> {
     pub shear: T,
     /// flux of fluctuation energy upward
     pub flux: T,
-    /// solid volume that passes upward, per area and time
-    pub passing: T,
     /// rows of the lower cell
     pub lower: [T; SIZE],
     /// rows of the upper cell
@@ -183,7 +181,7 @@ impl Setting<'_> {
         below[HEAT] = heated(halves.lower, lower.kinetic, 1.0);
         above[HEAT] = heated(halves.upper, upper.kinetic, -1.0);
         (below[LENGTH], above[LENGTH]) = (lower.length, -lower.length);
-        Face { viscous, turbulent, kinetic, contact, eddy, shear, flux, passing, lower: below, upper: above }
+        Face { viscous, turbulent, kinetic, contact, eddy, shear, flux, lower: below, upper: above }
     }
 
     /// Viscous and turbulent stress of the fluid, and its eddy viscosity, between two cells.
@@ -277,7 +275,6 @@ impl Setting<'_> {
             eddy: zero,
             shear,
             flux: zero,
-            passing: zero,
             lower: [zero; SIZE],
             upper: above,
         }

@@ -1,33 +1,33 @@
 //! Grains and fluid as two fluids over the whole depth, from the bed at rest through colliding to saltating grains.
 //!
-//! Finite volumes on a column. [`state`] says what the unknowns are, [`face`] and [`cell`] what the equations are, [`system`]
-//! assembles them with exact derivatives, [`newton`] solves them at the end of a step of any length: the steady flow is the
+//! Finite volumes on a column. `state` says what the unknowns are, `face` and `cell` what the equations are, `system`
+//! assembles them with exact derivatives, `newton` solves them at the end of a step of any length: the steady flow is the
 //! step without end. `docs/kinetic.md` derives it.
 //! Source: Chassagne, Bonamy & Chauchat (2023), J. Fluid Mech. 964, A27.
 
 pub mod case;
-pub mod cell;
+mod cell;
 mod equations;
-pub mod face;
+mod face;
 mod figures;
 mod in_time;
-pub mod laws;
-pub mod levels;
-pub mod newton;
+mod laws;
+mod levels;
+mod newton;
 mod outcome;
 mod problem;
 mod profile;
-pub mod stability;
-pub mod start;
-pub mod state;
-pub mod steady;
+mod stability;
+mod start;
+mod state;
+mod steady;
 mod study;
-pub mod system;
+mod system;
 #[cfg(test)]
 mod tests;
-pub mod transient;
+mod transient;
 
 pub use case::{CollidingGrains, FluidStress, State};
-pub use equations::equations;
-pub use outcome::run;
+use equations::equations;
+use outcome::run;
 pub use problem::TwoFluid;

@@ -25,21 +25,21 @@ pub struct TwoFluid {
     pub eta: f64,
     /// density of the grains [kg/m3]
     pub rho_p: f64,
-    /// diameter of the grains [m]
+    /// diameter of the grains \[m]
     pub d: f64,
     /// restitution coefficient
     pub e: f64,
     /// friction coefficient between two grains
     pub mu_p: f64,
-    /// thickness of the layer of grains at rest [m]
+    /// thickness of the layer of grains at rest \[m]
     pub thickness: f64,
     /// its solid fraction
     pub phi: f64,
     /// solid fraction at which the grains jam
     pub phi_max: f64,
-    /// depth of the fluid over it [m]
+    /// depth of the fluid over it \[m]
     pub depth: f64,
-    /// angle of the slope [rad]
+    /// angle of the slope \[rad]
     pub beta: f64,
     /// gravity [m/s2]
     pub g: f64,
@@ -65,16 +65,16 @@ pub struct TwoFluid {
     pub rate_floor: f64,
     /// solid fraction below which grains have no weight
     pub phi_floor: f64,
-    /// distance from the level of the grains at rest within which cells stay fine [m]; all of the same height without
+    /// distance from the level of the grains at rest within which cells stay fine \[m]; all of the same height without
     pub fine: Option<f64>,
-    /// amplitude [Pa/m] and period [s] of a pressure gradient that goes to and fro
+    /// amplitude [Pa/m] and period \[s] of a pressure gradient that goes to and fro
     pub oscillation: Option<(f64, f64)>,
-    /// simulated time [s], error of a step, and number of samples
+    /// simulated time \[s], error of a step, and number of samples
     pub pace: (f64, f64, usize),
 }
 
 impl TwoFluid {
-    /// Stress scale (rho_p - rho_f) g d [Pa].
+    /// Stress scale (rho_p - rho_f) g d \[Pa].
     #[must_use]
     pub fn stress_scale(&self) -> f64 {
         (self.rho_p - self.rho_f) * self.g * self.d

@@ -90,7 +90,7 @@ pub fn carried(laws: &Laws, x: &Unknowns) -> [f64; 5] {
 /// Residuals and their derivatives.
 #[derive(Clone, Debug)]
 pub struct Linear {
-    residual: Vec<f64>,
+    pub(super) residual: Vec<f64>,
     /// derivatives of the rows of each cell by the unknowns of the cell below, its own, those of the cell above
     blocks: Vec<[[[f64; SIZE]; SIZE]; 3]>,
     matrix: Banded,
@@ -207,12 +207,6 @@ impl Linear {
         }
     }
 
-    /// Residuals of all rows.
-    #[must_use]
-    pub fn residual(&self) -> &[f64] {
-        &self.residual
-    }
-
     /// The derivatives along the direction that `of` gives to each unknown of each cell.
     #[must_use]
     pub fn times(&self, of: impl Fn(usize, usize) -> f64) -> Vec<f64> {
@@ -312,7 +306,7 @@ impl Linear {
         largest
     }
 
-    /// Newton's step in units of [`unit`], after [`Self::norm`].
+    /// Newton's step in units of [`unit()`], after [`Self::norm`].
     ///
     /// # Errors
     /// [`Singular`] if the matrix is.
@@ -324,7 +318,7 @@ impl Linear {
     }
 
     /// Solves with the factors of [`Self::factor`], in place: from a side in the units of the residuals to unknowns in those of
-    /// [`unit`].
+    /// [`unit()`].
     pub fn solve(&self, side: &mut [f64]) {
         side.iter_mut().zip(&self.scales).for_each(|(x, scale)| *x /= scale);
         self.matrix.solve(side);

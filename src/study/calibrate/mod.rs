@@ -42,6 +42,7 @@ static MISFIT: Quantity = Quantity {
 
 /// What the user asks for.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Request {
     /// file or shipped case
     pub case: String,
@@ -53,8 +54,17 @@ pub struct Request {
     pub fit: Vec<String>,
     /// columns of the data that are fitted; empty for all that the model has
     pub columns: Vec<String>,
-    /// one sigma for values without one: a number, or `column=number` [SI]
+    /// one sigma for values without one: a number, or `column=number` \[SI]
     pub sigma: Vec<String>,
+}
+
+impl Request {
+    /// The case as it stands, and all columns of the data with the errors that they state.
+    #[must_use]
+    pub fn new(case: &str, data: &str, fit: Vec<String>) -> Self {
+        let (overrides, columns, sigma) = (Vec::new(), Vec::new(), Vec::new());
+        Self { case: case.into(), overrides, data: data.into(), fit, columns, sigma }
+    }
 }
 
 fn report(code: &str, message: String) -> ErrorReport {

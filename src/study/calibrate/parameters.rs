@@ -19,9 +19,9 @@ pub struct Parameters {
     pub keys: Vec<String>,
     /// the shortest endings of the keys that tell them apart
     pub names: Vec<String>,
-    /// values of the case [SI]
+    /// values of the case \[SI]
     pub start: Vec<f64>,
-    /// smallest and largest value [SI]; 0 and infinity where there is no bound
+    /// smallest and largest value \[SI]; 0 and infinity where there is no bound
     pub bounds: Vec<(f64, f64)>,
 }
 
@@ -95,7 +95,7 @@ impl Parameters {
         Ok((lower, upper))
     }
 
-    /// The values with these logarithms [SI]. A bound is met as it was given, not as the exponential of its logarithm.
+    /// The values with these logarithms \[SI]. A bound is met as it was given, not as the exponential of its logarithm.
     #[must_use]
     pub fn values(&self, ln: &[f64]) -> Vec<f64> {
         let value = |x: &f64, (low, high): &(f64, f64)| {

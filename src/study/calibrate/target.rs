@@ -10,7 +10,7 @@ use crate::study::StudyError;
 /// A measured value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
-    /// elevation [m]
+    /// elevation \[m]
     pub z: f64,
     /// what was measured [unit of the column]
     pub value: f64,

@@ -83,7 +83,7 @@ impl Scaled {
         q * self.hold / (self.e + q)
     }
 
-    /// Depth Y [H] of the mobile layer of the mixed form, as if the bed were deep enough.
+    /// Depth Y \[H] of the mobile layer of the mixed form, as if the bed were deep enough.
     fn mixed_depth(&self) -> f64 {
         let ratio = self.f * self.e / (self.hold - self.f);
         (1.0 - self.h_p) * ratio / (self.e + (self.e * self.e + ratio).sqrt())

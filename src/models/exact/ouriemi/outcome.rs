@@ -22,7 +22,7 @@ pub fn run(bed: &LaminarBed, cells: usize, watch: &mut dyn Watch) -> Result<Outc
     outcome(profile, history, numbers.results(bed), balances(&solution), numbers.validity(bed))
 }
 
-/// The walls and the centres of cells [m] whose faces lie on the yield level and the bed level, so that no level lies on a
+/// The walls and the centres of cells \[m] whose faces lie on the yield level and the bed level, so that no level lies on a
 /// jump; fine where the seepage of the two-fluid form meets the wall and the yield level.
 fn levels(solution: &Solution, bed: &LaminarBed, cells: usize) -> Vec<f64> {
     let Scaled { h_p, k, e, .. } = solution.scaled;

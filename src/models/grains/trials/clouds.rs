@@ -8,7 +8,7 @@ use crate::models::grains::Trial;
 use crate::result::{SolveError, quantity as q};
 use crate::runtime::rng::Stream;
 
-/// A cloud of `n` grains like `of`, radii spread by the share `spread`, in a box of side `side` [m], at up to `speed` [m/s].
+/// A cloud of `n` grains like `of`, radii spread by the share `spread`, in a box of side `side` \[m], at up to `speed` [m/s].
 #[must_use]
 pub fn cloud(n: u64, side: f64, spread: f64, of: &Grain, speed: f64) -> Vec<Grain> {
     let per_side = (n as f64).cbrt().ceil() as u64;

@@ -81,7 +81,7 @@ pub fn head_on(trial: &Trial) -> Result<Findings, SolveError> {
     ])
 }
 
-/// The impact on a wall at an angle [degrees].
+/// The impact on a wall at an angle \[degrees].
 ///
 /// # Errors
 /// If the grains cannot go on.

@@ -22,7 +22,7 @@ fn grain(trial: &Trial) -> Grain {
     Grain::at_rest([0.0; 3], 0.5 * trial.d, trial.rho_p)
 }
 
-/// Overlap of a grain at rest on the plane [m].
+/// Overlap of a grain at rest on the plane \[m].
 fn sunk(trial: &Trial) -> f64 {
     grain(trial).mass() * trial.g / trial.contact.k_n
 }

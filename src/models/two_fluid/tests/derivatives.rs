@@ -27,7 +27,7 @@ fn deviation(column: &Column, memory: &Memory) -> f64 {
         let moved: Vec<Unknowns> =
             state.iter().enumerate().map(|(i, x)| std::array::from_fn(|k| x[k] + h * direction(i, k))).collect();
         column.linearise(&moved, memory, &mobilised, &mut linear);
-        linear.residual().to_vec()
+        linear.residual.clone()
     };
     let h = 1e-6;
     let (high, low) = (residual(h), residual(-h));

@@ -1,15 +1,13 @@
-//! The cavity, from outside: accepted values of Stokes flow, conservation, and two methods that agree.
+//! The cavity: accepted values of Stokes flow, conservation, and two methods that agree.
 
 use std::ops::ControlFlow;
 
-use bedload::closures::regularisation::Regularisation;
-use bedload::models::section::cavity::Cavity;
-use bedload::models::section::{dual, newton};
-use bedload::result::Outcome;
+use crate::closures::regularisation::Regularisation;
+use crate::models::section::cavity::Cavity;
+use crate::models::section::{dual, newton};
+use crate::result::Outcome;
 
-fn run(case: &str, settings: &[&str]) -> Outcome {
-    crate::support::solve(case, settings).unwrap()
-}
+use super::run;
 
 fn get(outcome: &Outcome, name: &str) -> f64 {
     outcome.results.get(name).unwrap_or_else(|| panic!("{name}"))
@@ -62,7 +60,7 @@ fn two_methods_agree() {
 fn as_much_flows_to_the_right_as_to_the_left() {
     let outcome = run("section_2d_cavity_bn5", &["grid.cells=16"]);
     let profile = outcome.profile.unwrap();
-    let u = profile.get(&bedload::result::quantity::U_MIXTURE).unwrap();
+    let u = profile.get(&crate::result::quantity::U_MIXTURE).unwrap();
     // The discrete stream function vanishes at both ends: the cells of the profile hold it exactly.
     let z = profile.axis();
     let (mut flow, mut face, mut size) = (0.0, 0.0, 0.0_f64);

@@ -1,14 +1,14 @@
-//! The whole three-dimensional duct against its cross-section, from outside.
+//! The whole three-dimensional duct against its cross-section.
 
 use std::ops::ControlFlow;
 
-use bedload::closures::regularisation::{Regularisation, Smoothing};
-use bedload::models::section::Outline;
-use bedload::models::section::duct::{Duct, Filling};
-use bedload::models::section::full::{Full, Whole};
-use bedload::models::section::newton;
+use crate::closures::regularisation::{Regularisation, Smoothing};
+use crate::models::section::Outline;
+use crate::models::section::duct::{Duct, Filling};
+use crate::models::section::full::{Full, Whole};
+use crate::models::section::newton;
 
-use crate::support::{load, solve};
+use super::{load, run};
 
 const PAPER: Regularisation = Regularisation { law: Smoothing::Simple, lambda: 1e-6 };
 
@@ -56,7 +56,7 @@ fn a_model_that_has_only_a_section_refuses_the_whole_duct() {
 
 #[test]
 fn a_case_reports_how_far_the_whole_duct_is_from_its_section() {
-    let results = solve("section_3d_square_bed", &["grid.cells=8", "grid.along=2"]).unwrap().results;
+    let results = run("section_3d_square_bed", &["grid.cells=8", "grid.along=2"]).results;
     for name in ["section_deviation", "cross_flow", "uneven_flow"] {
         assert!(results.get(name).unwrap() < 1e-8, "{name}: {:?}", results.get(name));
     }

@@ -1,17 +1,18 @@
-//! Ducts in their cross-section, from outside: closed forms with the observed order, limits of flow and rest, agreement of
+//! Ducts in their cross-section: closed forms with the observed order, limits of flow and rest, agreement of
 //! the methods, and the plane flow that a wide section becomes.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use bedload::closures::regularisation::{Regularisation, Smoothing};
-use bedload::models::section::duct::{Divided, Duct, Filling};
-use bedload::models::section::element::points;
-use bedload::models::section::numbers::Numbers;
-use bedload::models::section::solve::Solution;
-use bedload::models::section::{Method, Outline, SectionMethod};
-use bedload::models::section::{dual, newton};
-use bedload::result::Outcome;
+use crate::closures::regularisation::{Regularisation, Smoothing};
+use crate::models::section::duct::{Divided, Duct, Filling};
+use crate::models::section::element::points;
+use crate::models::section::numbers::Numbers;
+use crate::models::section::solve::Solution;
+use crate::models::section::{Method, Outline, SectionMethod};
+use crate::models::section::{dual, newton};
+
+use super::run;
 
 const SQUARE: Outline = Outline::Rectangle { width: 1.0 };
 const HOW: SectionMethod =
@@ -42,10 +43,6 @@ fn flow_rate(solution: &Solution) -> f64 {
 
 fn u_max(solution: &Solution) -> f64 {
     solution.divided.velocity(&solution.solved.x).iter().fold(0.0, |m, u| m.max(*u))
-}
-
-fn run(case: &str, settings: &[&str]) -> Outcome {
-    crate::support::solve(case, settings).unwrap()
 }
 
 /// L2 norms of the error of the velocity and of its gradient over half of the section.

@@ -3,12 +3,12 @@
 
 use std::ops::ControlFlow;
 
-use bedload::closures::regularisation::Regularisation;
-use bedload::models::section::Outline;
-use bedload::models::section::cavity::Cavity;
-use bedload::models::section::duct::{Duct, Filling};
-use bedload::models::section::newton;
-use bedload::models::section::programme::{FIXED, Programme};
+use crate::closures::regularisation::Regularisation;
+use crate::models::section::Outline;
+use crate::models::section::cavity::Cavity;
+use crate::models::section::duct::{Duct, Filling};
+use crate::models::section::newton;
+use crate::models::section::programme::{FIXED, Programme};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
