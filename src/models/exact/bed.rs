@@ -1,13 +1,65 @@
 //! A laminar flow between two planes over a bed of grains, as its closed form, its solver and its cross-section take it.
 
 use crate::case::Fault;
-use crate::case::tables::{Bed, BedClosures, Fluid, Form, Grains, LaminarFlow};
+use crate::case::tables::{Bed, Fluid, Grains, one_of};
 use crate::closures::Info;
 use crate::closures::dilatancy::{self, Dilatancy, PhiIv};
 use crate::closures::drag::{self, CarmanKozeny, Drag};
 use crate::closures::friction::{self, Coulomb, Friction, MuIv};
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
+use schemars::{JsonSchema, Schema};
+use serde::{Deserialize, Serialize};
+
+/// A flow between two planes over a bed. Exactly one drive.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(transform = laminar_drives)]
+pub struct LaminarFlow {
+    /// Flow height H: distance between the lower and the upper wall, bed included.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Drive: fall of pressure along the flow, -dp/dx.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
+    pub pressure_gradient: Option<f64>,
+    /// Drive: wanted Shields number; the pressure gradient that gives it is solved for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub shields: Option<f64>,
+    /// Acceleration of gravity.
+    #[serde(default = "crate::case::tables::standard_gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+}
+
+fn laminar_drives(schema: &mut Schema) {
+    one_of(schema, &["pressure_gradient", "shields"]);
+}
+
+/// One velocity for fluid and grains, or two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Form {
+    /// Fluid and grains share one velocity.
+    Mixed,
+    /// Two velocities, coupled by the drag: a flow through the static bed, a slip in the mobile one, a threshold of motion.
+    TwoFluid,
+}
+
+/// Laws of the laminar bed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BedClosures {
+    /// Friction of the grains.
+    pub friction: Friction,
+    /// Effective viscosity of the mixture.
+    pub mixture_viscosity: MixtureViscosity,
+    /// Drag between the phases; only the two-fluid form has it.
+    #[serde(default)]
+    pub drag: Drag,
+    /// Solid fraction of sheared grains; only with friction by mu(I_v).
+    #[serde(default)]
+    pub dilatancy: Dilatancy,
+}
 
 /// What drives the flow.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,8 +1,9 @@
 //! The case of the logarithmic law.
 
+use super::ExactKind;
 use super::log_law::{equations, run};
 use crate::case::Fault;
-use crate::case::tables::{Fluid, Grid, LogLawModel, WallClosures, WallFlow};
+use crate::case::tables::{Fluid, Grid, only};
 use crate::closures::mixing_length::{self, MixingLength, Prandtl};
 use crate::closures::wall::{self, Rough, Wall};
 use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve};
@@ -10,9 +11,46 @@ use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 use crate::units::significant;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 /// Shields number at which the first grains move: intercept of Q*^(2/3), with eddies (docs/coupled.md).
 const ONSET: f64 = 0.045;
+
+/// A turbulent flow over a wall, driven by the stress at the wall.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WallFlow {
+    /// Flow height H: elevation up to which the profile is given.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Drive: friction velocity sqrt(tau/rho_f).
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub u_star: f64,
+}
+
+/// The model: the logarithmic law.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LogLawModel {
+    /// What kind of model: this one is a closed form.
+    pub kind: ExactKind,
+    /// Turbulent layer of constant stress over a rough wall.
+    pub solution: LogLawSolution,
+}
+
+only!(
+    /// Turbulent layer of constant stress over a rough wall.
+    LogLawSolution,
+    LogLaw
+);
+
+/// Laws of the turbulent layer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WallClosures {
+    /// Mixing length.
+    pub mixing_length: MixingLength,
+    /// Roughness of the wall.
+    pub wall: Wall,
+}
 
 tables! {
     /// Turbulent layer of constant stress over a rough wall, in closed form.

@@ -11,6 +11,7 @@ pub mod log_law;
 mod log_law_case;
 pub mod ouriemi;
 
+use crate::case::tables::only;
 use std::ops::ControlFlow;
 
 use crate::models::premises::outside;
@@ -20,6 +21,12 @@ use crate::result::{
     quantity,
 };
 use bed_results::closure_name;
+
+only!(
+    /// Closed forms.
+    ExactKind,
+    Exact
+);
 
 /// Levels between two looks at the watch.
 const BETWEEN_LOOKS: usize = 512;

@@ -1,19 +1,36 @@
 //! The laminar bed that is solved numerically: its case and its problem.
 
 use super::{equations, run, study};
-use crate::case::tables::{Bed, BedClosures, Fluid, Grains, LaminarFlow, LaminarModel, RegularisationTable, YieldGrid};
+use crate::case::tables::{Bed, Fluid, Grains, only};
 use crate::closures::friction;
 use crate::closures::regularisation::Regularisation;
 use crate::model::{
     ClosedForm, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
     Term, TermTest,
 };
-use crate::models::exact::bed::{LaminarBed, laminar_bed};
-use crate::models::yielding::size;
+use crate::models::exact::bed::{BedClosures, Form, LaminarBed, LaminarFlow, laminar_bed};
+use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 use crate::units::significant;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// The model: a laminar bed, solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LaminarModel {
+    /// What kind of model: a laminar flow over a bed.
+    pub kind: LaminarKind,
+    /// One velocity for fluid and grains, or two.
+    pub form: Form,
+}
+
+only!(
+    /// A laminar flow over a bed, solved numerically.
+    LaminarKind,
+    Laminar
+);
 
 tables! {
     /// Laminar flow over a bed of grains between two planes: regularised, or with the exact yield.

@@ -3,10 +3,10 @@
 use super::case::{CavityTables, DuctBedTables, DuctTables, Method, SectionGrid, SectionSolver, Shape};
 use super::{cavity_equations, equations, run, run_cavity, study};
 use crate::case::Fault;
-use crate::case::tables::LaminarFlow;
 use crate::closures::friction;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
+use crate::models::exact::bed::LaminarFlow;
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
 use crate::models::yielding::size;
 use crate::result::Context;
