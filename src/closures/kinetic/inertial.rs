@@ -17,6 +17,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Stresses;
 use crate::closures::friction::{MuI, mu_i::INERTIAL_RANGE};
 use crate::closures::{Info, Standing};
 use crate::numerics::dual::Real;
@@ -34,7 +35,7 @@ pub static INFO: Info = Info {
     standing: Standing::Experimental,
 };
 
-/// Constants of dense granular flow.
+/// Dense granular flow: mu(I) and phi(I).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Inertial {
     /// Friction coefficient at vanishing inertial number.
@@ -75,6 +76,12 @@ impl Default for Inertial {
     /// As published for bedload.
     fn default() -> Self {
         Self { mu_s: mu_s(), mu_2: mu_2(), i_0: i_0(), b: slope() }
+    }
+}
+
+impl Stresses for Inertial {
+    fn parts(&self) -> Vec<&'static Info> {
+        Vec::new()
     }
 }
 

@@ -4,7 +4,8 @@ use super::ExactKind;
 use super::bagnold::{equations, run};
 use crate::case::Fault;
 use crate::case::tables::{Grains, Grid, SlopeDefinition, only};
-use crate::closures::friction::{self, Friction, MuI};
+use crate::closures::friction::{self, MuI};
+use crate::closures::role::Only;
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
@@ -56,7 +57,7 @@ only!(
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FilmClosures {
     /// Friction of the grains.
-    pub friction: Friction,
+    pub friction: Only<MuI>,
 }
 
 tables! {
@@ -105,16 +106,7 @@ impl Model for OnMesh<GranularFilm> {
         let BagnoldFilmTables { grains, bed, flow, closures, grid, .. } = tables;
         let slope = flow.slope_definition.angle(flow.slope);
         let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
-        let friction = match closures.friction {
-            Friction::MuI(law) => law,
-            other => {
-                let allowed = vec![friction::mu_i::INFO.law];
-                let fault =
-                    Fault::LawMismatch { family: "friction", law: other.law(), model: Self::INFO.name.into(), allowed };
-                faults.push(("closures.friction.law", fault));
-                return None;
-            }
-        };
+        let friction = closures.friction.0;
         if friction.mu_2 <= friction.mu_s {
             faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: friction.mu_s, mu_2: friction.mu_2 }));
         }

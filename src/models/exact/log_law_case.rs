@@ -4,8 +4,9 @@ use super::ExactKind;
 use super::log_law::{equations, run};
 use crate::case::Fault;
 use crate::case::tables::{Fluid, Grid, only};
-use crate::closures::mixing_length::{self, MixingLength, Prandtl};
-use crate::closures::wall::{self, Rough, Wall};
+use crate::closures::mixing_length::{self, Prandtl};
+use crate::closures::role::Only;
+use crate::closures::wall::{self, Rough};
 use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
@@ -47,9 +48,9 @@ only!(
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct WallClosures {
     /// Mixing length.
-    pub mixing_length: MixingLength,
+    pub mixing_length: Only<Prandtl>,
     /// Roughness of the wall.
-    pub wall: Wall,
+    pub wall: Only<Rough>,
 }
 
 tables! {
@@ -92,16 +93,7 @@ impl Model for OnMesh<RoughWall> {
 
     fn build(tables: &LogLawTables, faults: &mut Faults) -> Option<Self> {
         let LogLawTables { fluid, flow, closures, grid, .. } = tables;
-        let mixing_length = match closures.mixing_length {
-            MixingLength::Prandtl(law) => law,
-            other => {
-                let (law, allowed) = (other.info().law, vec![mixing_length::prandtl::INFO.law]);
-                let fault = Fault::LawMismatch { family: "mixing_length", law, model: Self::INFO.name.into(), allowed };
-                faults.push(("closures.mixing_length.law", fault));
-                return None;
-            }
-        };
-        let Wall::Rough(wall) = closures.wall;
+        let (Only(mixing_length), Only(wall)) = (closures.mixing_length, closures.wall);
         if wall.roughness_length() >= flow.height {
             let fault = Fault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
             faults.push(("closures.wall.k_s", fault));

@@ -7,7 +7,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::case::tables::SlopeDefinition;
-use crate::closures::contact::Contact;
+use crate::closures::contact::LinearSpring;
+use crate::closures::role::Only;
 
 /// A bed of grains that is let fall into place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -201,7 +202,7 @@ fn steps() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GrainClosures {
     /// Contact of two grains, or of a grain with a wall.
-    pub contact: Contact,
+    pub contact: Only<LinearSpring>,
 }
 
 tables! {

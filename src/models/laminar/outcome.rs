@@ -1,5 +1,6 @@
 //! A solved bed in SI: profile at the nodes, numbers, balances, and what the regularisation changed.
 
+use crate::closures::mixture_viscosity::RelativeViscosity;
 use serde_json::{Map, Value, json};
 
 use super::bed::{Bed, Dilation, Nodes, Solution};

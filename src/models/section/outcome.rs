@@ -1,5 +1,6 @@
 //! A solved duct in SI: numbers, profile on the symmetry plane, fields, balances, and what the regularisation changed.
 
+use crate::closures::mixture_viscosity::RelativeViscosity;
 use std::ops::ControlFlow;
 
 use serde_json::{Map, json};

@@ -5,6 +5,8 @@ mod flow;
 mod problem;
 mod study;
 
+use crate::closures::kinetic::Stresses;
+use crate::closures::kinetic::radial::AtContact;
 pub use problem::ShearCell;
 
 use super::exact::{balance, outcome};

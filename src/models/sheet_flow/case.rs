@@ -6,13 +6,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::case::tables::SlopeDefinition;
-use crate::closures::dilatancy::Dilatancy;
-use crate::closures::drag::Drag;
-use crate::closures::friction::Friction;
+use crate::closures::dilatancy::PhiI;
+use crate::closures::drag::Dallavalle;
+use crate::closures::friction::MuI;
 use crate::closures::lid::Lid;
-use crate::closures::mixing_length::MixingLength;
+use crate::closures::mixing_length::LiSawamoto;
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::rearrangement::Rearrangement;
+use crate::closures::role::Only;
 use crate::closures::suspension::Suspension;
 
 /// A bed that loosens and goes into suspension.
@@ -107,18 +108,18 @@ pub enum SheetMethod {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct SheetClosures {
     /// Friction of the grains.
-    pub friction: Friction,
+    pub friction: Only<MuI>,
     /// Dilatancy of the grains.
-    pub dilatancy: Dilatancy,
+    pub dilatancy: Only<PhiI>,
     /// Rearrangement time of the grains.
     #[serde(default)]
     pub rearrangement: Rearrangement,
     /// Effective viscosity of the mixture.
     pub mixture_viscosity: MixtureViscosity,
     /// Drag between the phases.
-    pub drag: Drag,
+    pub drag: Only<Dallavalle>,
     /// Mixing length of the turbulence.
-    pub mixing_length: MixingLength,
+    pub mixing_length: Only<LiSawamoto>,
     /// Grains in suspension.
     #[serde(default)]
     pub suspension: Suspension,

@@ -5,7 +5,7 @@ use super::flow::Flow;
 use super::linear::{self, LOCAL, LocalCell};
 use super::newton::Column;
 use super::suspension::{Inflow, Meshes, Totals, march};
-use crate::closures::lid::{ColebrookWhite, Lid, LidStress};
+use crate::closures::lid::{ColebrookWhite, Lid, Stress};
 use crate::models::sheet_flow::{BedReading, SheetFlow};
 use crate::numerics::dual::{Dual, Real};
 
@@ -61,7 +61,7 @@ impl Setting {
     #[must_use]
     pub fn scaled(sheet: &SheetFlow) -> Self {
         let lid = match sheet.lid {
-            Lid::Stress(law) => Lid::Stress(LidStress { stress: law.stress / sheet.stress_scale() }),
+            Lid::Stress(law) => Lid::Stress(Stress { stress: law.stress / sheet.stress_scale() }),
             Lid::ColebrookWhite(law) => Lid::ColebrookWhite(ColebrookWhite { roughness: law.roughness / sheet.d }),
             other => other,
         };

@@ -6,8 +6,8 @@
 use crate::closures::dilatancy::PhiI;
 use crate::closures::drag::Dallavalle;
 use crate::closures::friction::MuI;
-use crate::closures::mixture_viscosity::MixtureViscosity;
-use crate::closures::rearrangement::{Grain, Rearrangement};
+use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
+use crate::closures::rearrangement::{Clock, Grain, Rearrangement};
 use crate::closures::suspension::{Rouse, Suspension};
 use crate::models::sheet_flow::SheetFlow;
 use crate::numerics::dual::Real;

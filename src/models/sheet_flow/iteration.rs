@@ -7,6 +7,8 @@
 //! than relaxing it, and the grains that the suspension takes come from all cells in proportion, since equal parts would
 //! empty the thin cells at the interface.
 
+use crate::closures::mixture_viscosity::RelativeViscosity;
+use crate::closures::rearrangement::Clock;
 use nalgebra::{Matrix2, Vector2};
 
 use super::bed::{self, STRIDE, State, Weights};

@@ -7,7 +7,7 @@ use super::flow::Cell;
 use super::newton::Column;
 use super::solve::Solved;
 use super::suspension::{Inflow, Level, Totals, march};
-use crate::closures::rearrangement::Regime;
+use crate::closures::rearrangement::{Clock, Regime};
 
 /// Solid fraction of the bottom of the sheet, relative to that at rest.
 const STILL: f64 = 0.999;

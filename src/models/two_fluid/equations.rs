@@ -1,6 +1,7 @@
 //! The equations that are solved, with their numbers.
 
-use crate::closures::kinetic::{Elastic, Granular};
+use crate::closures::kinetic::static_friction::Threshold;
+use crate::closures::kinetic::{Elastic, Granular, Stresses};
 use crate::models::two_fluid::{FluidStress, State, TwoFluid};
 use crate::units::significant;
 
@@ -23,7 +24,7 @@ pub fn equations(flow: &TwoFluid) -> String {
     };
     let mu_s = n(flow.static_friction.mu_s(flow.mu_p));
     let stresses = match flow.granular {
-        Granular::MuI(law) => format!(
+        Granular::Inertial(law) => format!(
             "stresses      τ_p = μ(I) p,  p = p_el + ρ_p (b φ/(φ_max - φ))² (d u_p')²,  μ_s = {}, μ_2 = {}, I_0 = {}, b = {}\n",
             n(law.mu_s),
             n(law.mu_2),

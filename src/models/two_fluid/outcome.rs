@@ -216,7 +216,7 @@ fn balances(column: &Column, levels: &Levels) -> Vec<Balance> {
 fn validity(flow: &TwoFluid, column: &Column, levels: &Levels) -> Vec<Validity> {
     let mut found = Vec::new();
     match flow.granular {
-        Granular::MuI(_) => {
+        Granular::Inertial(_) => {
             let inertial = levels
                 .cells
                 .iter()

@@ -2,7 +2,6 @@
 
 use super::{equations, run};
 use crate::case::tables::{Bed, Fluid, Grains, Grid, only};
-use crate::closures::friction;
 use crate::model::{Description, Effort, Faults, Flow, LaminarScene, Model, ModelInfo, Offer, OnMesh, Solve, Term};
 use crate::models::exact::ExactKind;
 use crate::models::exact::bed::{BedClosures, Form, LaminarBed, LaminarFlow, laminar_bed};
@@ -56,9 +55,8 @@ impl Model for OnMesh<LaminarBed> {
 
     fn build(tables: &OuriemiTables, faults: &mut Faults) -> Option<Self> {
         let OuriemiTables { fluid, grains, bed, flow, closures, grid, .. } = tables;
-        let laws = [friction::coulomb::INFO.law];
-        let form = tables.model.form;
-        let problem = laminar_bed((fluid, grains, bed, flow, closures), form, Self::INFO.name, &laws, faults)?;
+        let parts = (fluid, grains, bed, flow, closures.into());
+        let problem = laminar_bed(parts, tables.model.form, Self::INFO.name, faults)?;
         Some(Self { problem, cells: grid.cells })
     }
 

@@ -1,7 +1,7 @@
 //! Ouriemi's bed in SI: profile, numbers, balances, and the equations with their numbers.
 
 use super::{Scaled, Solution, solve};
-use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::models::exact::bed::{Drive, LaminarBed};
 use crate::models::exact::bed_results::BedNumbers;
 use crate::models::exact::{Column, balance, outcome, tabulate};
