@@ -18,7 +18,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Stresses;
-use crate::closures::friction::{MuI, mu_i::INERTIAL_RANGE};
+use crate::closures::friction::{INERTIAL_RANGE, MuI};
 use crate::closures::{Info, Standing};
 use crate::numerics::dual::Real;
 
@@ -108,6 +108,7 @@ impl Inertial {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::closures::friction::FrictionLaw;
     use approx::assert_relative_eq;
 
     const LAW: Inertial = Inertial { mu_s: 0.35, mu_2: 0.97, i_0: 0.69, b: 0.31 };

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::case::tables::SlopeDefinition;
 use crate::closures::dilatancy::PhiI;
 use crate::closures::drag::Dallavalle;
-use crate::closures::friction::MuI;
+use crate::closures::friction::{FrictionLaw, MuI};
 use crate::closures::lid::Lid;
 use crate::closures::mixing_length::LiSawamoto;
 use crate::closures::mixture_viscosity::MixtureViscosity;
@@ -106,9 +106,11 @@ pub enum SheetMethod {
 
 /// Laws of the sheet flow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SheetClosures {
+#[serde(bound = "")]
+#[schemars(bound = "")]
+pub struct SheetClosures<F: FrictionLaw = MuI> {
     /// Friction of the grains.
-    pub friction: Only<MuI>,
+    pub friction: Only<F>,
     /// Dilatancy of the grains.
     pub dilatancy: Only<PhiI>,
     /// Rearrangement time of the grains.
@@ -229,7 +231,8 @@ impl Default for SheetSolver {
 
 tables! {
     /// Turbulent flow over a bed of grains that shear as dense granular flow, with a suspension above.
-    pub struct SheetFlowTables {
+    #[schemars(rename = "SheetFlowTables")]
+    pub struct SheetFlowTables<F: FrictionLaw = MuI> {
         /// The fluid.
         fluid: Fluid,
         /// The grains.
@@ -241,7 +244,7 @@ tables! {
         /// The model.
         model: SheetModel,
         /// Laws.
-        closures: SheetClosures,
+        closures: SheetClosures<F>,
         /// Small numbers.
         #[serde(default)]
         regularisation: SheetRegularisation,

@@ -7,6 +7,7 @@
 //! than relaxing it, and the grains that the suspension takes come from all cells in proportion, since equal parts would
 //! empty the thin cells at the interface.
 
+use crate::closures::friction::FrictionLaw;
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::rearrangement::Clock;
 use nalgebra::{Matrix2, Vector2};
@@ -47,7 +48,7 @@ struct Lagged {
     whole: f64,
 }
 
-impl Column {
+impl<F: FrictionLaw> Column<F> {
     /// Iterates from rest, or from `state`; the residuals go to `history`, and `stop` may end it.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use crate::case::tables::SlopeDefinition;
 use crate::closures::Info;
 use crate::closures::dilatancy::{self, PhiI};
 use crate::closures::drag::{self, Dallavalle};
-use crate::closures::friction::{self, MuI};
+use crate::closures::friction::{FrictionLaw, MuI};
 use crate::closures::lid::Lid;
 use crate::closures::mixing_length::{self, BelowPacked, LiSawamoto};
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
@@ -25,7 +25,7 @@ use crate::units::significant;
 
 /// A sheet flow. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SheetFlow {
+pub struct SheetFlow<F = MuI> {
     /// density of the fluid [kg/m3]
     pub rho_f: f64,
     /// viscosity of the fluid [Pa s]
@@ -49,7 +49,7 @@ pub struct SheetFlow {
     /// top of the flow
     pub lid: Lid,
     /// friction of the grains
-    pub friction: MuI,
+    pub friction: F,
     /// dilatancy of the grains
     pub dilatancy: PhiI,
     /// rearrangement time of the grains
@@ -74,7 +74,7 @@ pub struct SheetFlow {
     pub pace: (f64, f64, usize),
 }
 
-impl SheetFlow {
+impl<F: FrictionLaw> SheetFlow<F> {
     /// Stress scale (rho_p - rho_f) g d [Pa].
     #[must_use]
     pub fn stress_scale(&self) -> f64 {
@@ -93,11 +93,11 @@ const ERROR: f64 = 0.26;
 /// Drives, and those that were given.
 const DRIVES: [&str; 3] = ["shields", "u_star", "slope"];
 
-impl Model for OnMesh<SheetFlow> {
+impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
     const INFO: ModelInfo = ModelInfo { name: "sheet-flow", stochastic: false };
-    type Tables = SheetFlowTables;
+    type Tables = SheetFlowTables<F>;
 
-    fn build(tables: &SheetFlowTables, faults: &mut Faults) -> Option<Self> {
+    fn build(tables: &SheetFlowTables<F>, faults: &mut Faults) -> Option<Self> {
         let SheetFlowTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
         if bed.level >= flow.height {
             faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
@@ -131,8 +131,9 @@ impl Model for OnMesh<SheetFlow> {
             faults.push(("flow", Fault::Drives { given: drives, allowed }));
         }
         let sine = flow.slope.map(|slope| slope_sine(slope, flow.slope_definition, faults));
-        if friction.mu_2 <= friction.mu_s {
-            faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: friction.mu_s, mu_2: friction.mu_2 }));
+        let (mu_s, mu_2) = (friction.least(), friction.most());
+        if mu_2 <= mu_s {
+            faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s, mu_2 }));
         }
         if mixing_length.phi_max < dilatancy.phi_max || mixing_length.below_packed == BelowPacked::Zero {
             let (phi_max, bed) = (mixing_length.phi_max, dilatancy.phi_max);
@@ -213,7 +214,7 @@ impl Model for OnMesh<SheetFlow> {
     }
 }
 
-impl Solve for OnMesh<SheetFlow> {
+impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
     fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
         run(&self.problem, self.cells, context.watch)
     }
@@ -259,7 +260,7 @@ impl Solve for OnMesh<SheetFlow> {
             depth,
             sine: flow.sine.or(result(q::SLOPE_SINE.name)).unwrap_or(balanced),
             theta,
-            mu_s: flow.friction.mu_s,
+            mu_s: flow.friction.least(),
             contacts: None,
             settling: match flow.suspension {
                 Suspension::Rouse(law) => Some(law.settling_velocity),
@@ -298,9 +299,9 @@ fn slope_sine(slope: f64, definition: SlopeDefinition, faults: &mut Faults) -> O
     Some(if definition == SlopeDefinition::Sine { slope } else { angle.sin() })
 }
 
-fn laws(flow: &SheetFlow) -> Vec<&'static Info> {
+fn laws<F: FrictionLaw>(flow: &SheetFlow<F>) -> Vec<&'static Info> {
     vec![
-        &friction::mu_i::INFO,
+        F::INFO,
         &dilatancy::phi_i::INFO,
         flow.rearrangement.info(),
         flow.viscosity.info(),

@@ -1,5 +1,6 @@
 //! The equations that are solved, with their numbers.
 
+use crate::closures::kinetic::elastic::{johnson_jackson, none};
 use crate::closures::kinetic::static_friction::Threshold;
 use crate::closures::kinetic::{Elastic, Granular, Stresses};
 use crate::models::two_fluid::{FluidStress, State, TwoFluid};
@@ -14,9 +15,10 @@ pub fn equations(flow: &TwoFluid) -> String {
         FluidStress::Whole => "ρ_f",
     };
     let elastic = match flow.elastic {
-        Elastic::None => "p_el = 0".to_owned(),
+        Elastic::None => none::INFO.equation.to_owned(),
         Elastic::JohnsonJackson(law) => format!(
-            "p_el = P₀ (φ - φ_rlp)³/(φ_max - φ)⁵ above φ_rlp,  P₀ = {} Pa, φ_rlp = {}, φ_max = {}",
+            "{},  P₀ = {} Pa, φ_rlp = {}, φ_max = {}",
+            johnson_jackson::INFO.equation,
             n(law.p_0),
             n(law.phi_rlp),
             n(flow.phi_max)
