@@ -1,12 +1,13 @@
 //! What the models with a yield stress share: the one size of its regularisation, and how they converge over it.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::case::Fault;
 use crate::case::tables::cells;
 use crate::closures::regularisation::Smoothing;
 use crate::model::{Faults, Law, Meshes, Rung, Sizes, Smoothed};
 use crate::models::exact::bed::LaminarBed;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// How the yield stress is smoothed, and by how much: a size for every law but `none`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

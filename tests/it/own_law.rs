@@ -1,7 +1,6 @@
 //! A friction law from outside is solved by sheet flow through the public interface alone.
 
 use bedload::closures::friction::FrictionLaw;
-use bedload::prelude::*;
 use bedload::result::quantity as q;
 
 use crate::support::{REGISTRY, run};

@@ -9,12 +9,12 @@
 //!
 //! Source: Chassagne et al. (2023), Table 1.
 
-use crate::closures::kinetic::dissipation::EffectiveRestitution;
-use crate::closures::kinetic::radial::AtContact;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Dissipation, DragWork, Kinetic, Limit, Radial, Saltation, Stresses, garzo_dufty, saltation};
+use crate::closures::kinetic::dissipation::EffectiveRestitution;
+use crate::closures::kinetic::radial::AtContact;
 use crate::closures::{Info, Range, Standing};
 
 /// Catalogue entry.

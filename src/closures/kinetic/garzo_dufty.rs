@@ -20,13 +20,13 @@
 //! correction, as two-fluid codes use it; Chassagne et al. (2023), Table 1, left column. Below e = 1/2 kap_k is negative in
 //! dense flow, and below 1/3 eta_k too.
 
-use crate::closures::kinetic::radial::AtContact;
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{DragWork, Kinetic, Radial, Stresses};
+use crate::closures::kinetic::radial::AtContact;
 use crate::closures::{Info, Range, Standing};
 use crate::numerics::dual::Real;
 

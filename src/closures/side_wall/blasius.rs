@@ -7,9 +7,9 @@
 //!
 //! The laminar branch (`tau_w = 6 eta u/W`) begins at Re = 812. Source: Blasius (1913), for pipes, Re 3e3 to 1e5.
 
-use super::{Friction, WallFriction};
 use schemars::JsonSchema;
 
+use super::{Friction, WallFriction};
 use crate::closures::{Info, Range, Standing};
 
 /// Catalogue entry.

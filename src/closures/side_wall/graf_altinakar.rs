@@ -11,9 +11,9 @@
 
 use std::f64::consts::LOG10_E;
 
-use super::{Friction, WallFriction, implicit::Implicit};
 use schemars::JsonSchema;
 
+use super::{Friction, WallFriction, implicit::Implicit};
 use crate::closures::{Info, Range, Standing};
 
 /// Catalogue entry.

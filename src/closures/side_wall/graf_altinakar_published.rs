@@ -11,9 +11,9 @@
 //!
 //! Source: implementation of Maurin et al. (2015), after Graf & Altinakar (1998), Fluvial Hydraulics.
 
-use super::{Friction, WallFriction, implicit::Implicit};
 use schemars::JsonSchema;
 
+use super::{Friction, WallFriction, implicit::Implicit};
 use crate::closures::{Info, Range, Standing};
 
 /// Catalogue entry.

@@ -3,7 +3,8 @@
 mod solve;
 mod study;
 
-pub use solve::{Solution, equations, run};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use crate::case::tables::{BinghamFluid, only};
 use crate::closures::regularisation::Regularisation;
@@ -13,8 +14,7 @@ use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+pub use solve::{Solution, equations, run};
 
 /// The model: a Bingham fluid between two planes, solved numerically.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,11 +1,10 @@
 //! The tables that only a coupled flow of grains and fluid has.
 
-use crate::case::tables::{Fluid, Grains};
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::case::tables::SlopeDefinition;
+use crate::case::tables::{Fluid, Grains};
 use crate::closures::contact::LinearSpring;
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::fluctuation::Fluctuation;
@@ -14,6 +13,7 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::role::Only;
 use crate::closures::side_wall::SideWall;
 use crate::dem::{Bottom, Discrete};
+use crate::tables;
 
 /// A bed of grains that is let fall into place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,5 +1,8 @@
 //! The case of the granular film.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::ExactKind;
 use super::bagnold::{equations, run};
 use crate::case::Fault;
@@ -10,8 +13,6 @@ use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// A film of grains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,5 +1,8 @@
 //! A laminar flow between two planes over a bed of grains, as its closed form, its solver and its cross-section take it.
 
+use schemars::{JsonSchema, Schema};
+use serde::{Deserialize, Serialize};
+
 use crate::case::Fault;
 use crate::case::tables::{Bed, Fluid, Grains, one_of};
 use crate::closures::Info;
@@ -9,8 +12,6 @@ use crate::closures::friction::{self, Coulomb, MuIv};
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::role::{Only, choice};
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
-use schemars::{JsonSchema, Schema};
-use serde::{Deserialize, Serialize};
 
 /// A flow between two planes over a bed. Exactly one drive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

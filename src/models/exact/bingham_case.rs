@@ -1,5 +1,8 @@
 //! The case of the Bingham fluid between two planes, and the problem that its closed form and its solver share.
 
+use schemars::{JsonSchema, Schema};
+use serde::{Deserialize, Serialize};
+
 use super::ExactKind;
 use super::bingham::{equations, run};
 use crate::case::tables::{BinghamFluid, Grid, one_of, only};
@@ -7,8 +10,6 @@ use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
-use schemars::{JsonSchema, Schema};
-use serde::{Deserialize, Serialize};
 
 /// A flow between two planes. Exactly one drive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

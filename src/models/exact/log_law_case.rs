@@ -1,5 +1,8 @@
 //! The case of the logarithmic law.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::ExactKind;
 use super::log_law::{equations, run};
 use crate::case::Fault;
@@ -12,8 +15,6 @@ use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 use crate::units::significant;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// Shields number at which the first grains move: intercept of Q*^(2/3), with eddies (docs/coupled.md).
 const ONSET: f64 = 0.045;

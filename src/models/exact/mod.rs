@@ -11,16 +11,17 @@ pub mod log_law;
 mod log_law_case;
 pub mod ouriemi;
 
-use crate::case::tables::only;
 use std::ops::ControlFlow;
 
+use bed_results::closure_name;
+
+use crate::case::tables::only;
 use crate::models::premises::outside;
 use crate::numerics::root::NoRoot;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch,
     quantity,
 };
-use bed_results::closure_name;
 
 only!(
     /// Closed forms.

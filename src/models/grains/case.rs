@@ -1,14 +1,14 @@
 //! The tables of cases of single grains, as `tables` has those of the other models.
 
-use crate::case::tables::Grains;
-use crate::dem::{Bottom, Discrete};
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::case::tables::Grains;
 use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::LinearSpring;
 use crate::closures::role::Only;
+use crate::dem::{Bottom, Discrete};
+use crate::tables;
 
 /// A bed of grains that is let fall into place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

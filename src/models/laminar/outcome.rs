@@ -1,10 +1,10 @@
 //! A solved bed in SI: profile at the nodes, numbers, balances, and what the regularisation changed.
 
-use crate::closures::mixture_viscosity::RelativeViscosity;
 use serde_json::{Map, Value, json};
 
 use super::bed::{Bed, Dilation, Nodes, Solution};
 use super::mesh::Mesh;
+use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::Regularisation;
 use crate::models::exact::bed::{Drive, LaminarBed};
 use crate::models::exact::bed_results::BedNumbers;

@@ -1,5 +1,8 @@
 //! The laminar bed that is solved numerically: its case and its problem.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::{equations, run, study};
 use crate::case::tables::{Bed, Fluid, Grains, only};
 use crate::closures::mixture_viscosity::MixtureViscosity;
@@ -16,8 +19,6 @@ use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 use crate::units::significant;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The model: a laminar bed, solved numerically.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

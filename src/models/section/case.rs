@@ -1,11 +1,12 @@
 //! The tables that only flows in two-dimensional sections have.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::case::tables::{Bed, BinghamFluid, Fluid, Grains, only};
 use crate::models::exact::bed::{BedClosures, Form};
 use crate::models::yielding::RegularisationTable;
 use crate::tables;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// A duct that a pressure gradient drives a yield-stress fluid through.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

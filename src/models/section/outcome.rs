@@ -1,6 +1,5 @@
 //! A solved duct in SI: numbers, profile on the symmetry plane, fields, balances, and what the regularisation changed.
 
-use crate::closures::mixture_viscosity::RelativeViscosity;
 use std::ops::ControlFlow;
 
 use serde_json::{Map, json};
@@ -10,6 +9,7 @@ use super::full::Full;
 use super::newton::{self, Stalled};
 use super::numbers::Numbers;
 use super::solve::Solution;
+use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::models::premises::{self, outside};
 use crate::models::section::{Contents, DuctFlow, Method, Outline};

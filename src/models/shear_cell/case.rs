@@ -1,14 +1,14 @@
 //! The tables that only grains between two moving walls have.
 
-use crate::case::tables::Grid;
-use crate::models::two_fluid::CollidingGrains;
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::case::tables::Grid;
 use crate::closures::kinetic;
 use crate::closures::kinetic::radial::PHI_MAX;
 use crate::closures::role::choice;
+use crate::models::two_fluid::CollidingGrains;
+use crate::tables;
 
 /// The gap between the walls and the grains in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,11 +1,10 @@
 //! The tables that only a sheet flow has.
 
-use crate::case::tables::{Fluid, Grains};
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::case::tables::SlopeDefinition;
+use crate::case::tables::{Fluid, Grains};
 use crate::closures::dilatancy::PhiI;
 use crate::closures::drag::Dallavalle;
 use crate::closures::friction::{FrictionLaw, MuI};
@@ -15,6 +14,7 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::rearrangement::Rearrangement;
 use crate::closures::role::Only;
 use crate::closures::suspension::Suspension;
+use crate::tables;
 
 /// A bed that loosens and goes into suspension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

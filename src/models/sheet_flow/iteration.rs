@@ -7,16 +7,16 @@
 //! than relaxing it, and the grains that the suspension takes come from all cells in proportion, since equal parts would
 //! empty the thin cells at the interface.
 
-use crate::closures::friction::FrictionLaw;
-use crate::closures::mixture_viscosity::RelativeViscosity;
-use crate::closures::rearrangement::Clock;
 use nalgebra::{Matrix2, Vector2};
 
 use super::bed::{self, STRIDE, State, Weights};
 use super::column::interface_weights;
 use super::newton::{Column, Stalled};
 use super::suspension::march;
+use crate::closures::friction::FrictionLaw;
 use crate::closures::lid::Lid;
+use crate::closures::mixture_viscosity::RelativeViscosity;
+use crate::closures::rearrangement::Clock;
 use crate::models::sheet_flow::BedReading;
 use crate::numerics::block_thomas::{self, Row};
 

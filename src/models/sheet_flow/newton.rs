@@ -1,7 +1,6 @@
 //! Newton's method on the whole column: the bed as a banded system, bordered by the stress on the interface, the slope, the
 //! amount of grains and that of grains at rest, with exact derivatives and a line search.
 
-use crate::closures::friction::{FrictionLaw, MuI};
 use nalgebra::{LU, Matrix4, U4, Vector4};
 
 use super::bed::{self, STRIDE, State};
@@ -10,6 +9,7 @@ use super::flow::Flow;
 use super::linear::{Linearised, LocalCell, local_cell};
 use super::mesh::Mesh;
 use super::suspension::Meshes;
+use crate::closures::friction::{FrictionLaw, MuI};
 
 /// The discrete column.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,6 +1,5 @@
 //! A solved sheet flow in SI: numbers, balances, closures outside their range, and why there is no solution.
 
-use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE};
 use serde_json::json;
 
 use super::column::{Floor, Setting};
@@ -11,6 +10,7 @@ use super::newton::{Reason, Stalled};
 use super::profile::profile;
 use super::solve::{self, Solved};
 use crate::closures::dilatancy::phi_i;
+use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE};
 use crate::closures::lid::{Lid, colebrook_white};
 use crate::closures::suspension::{Suspension, rouse};
 use crate::closures::{Info, Range};

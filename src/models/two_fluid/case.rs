@@ -1,10 +1,9 @@
 //! The tables that only a two-fluid flow has.
 
-use crate::case::tables::Fluid;
-use crate::tables;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
+use crate::case::tables::Fluid;
 use crate::case::tables::{SlopeDefinition, one_of};
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::DallavalleGrain;
@@ -12,6 +11,7 @@ use crate::closures::kinetic::radial::PHI_MAX;
 use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
 use crate::closures::mixing_length::MixingLength;
 use crate::closures::role::Only;
+use crate::tables;
 
 /// Grains that collide.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -1,5 +1,8 @@
 //! The case of the closed form.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::{equations, run};
 use crate::case::tables::{Bed, Fluid, Grains, Grid, only};
 use crate::model::{Description, Effort, Faults, Flow, LaminarScene, Model, ModelInfo, Offer, OnMesh, Solve, Term};
@@ -8,8 +11,6 @@ use crate::models::exact::bed::{BedClosures, Form, LaminarBed, LaminarFlow, lami
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 
 /// The model: Ouriemi's bed in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
