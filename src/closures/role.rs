@@ -113,7 +113,7 @@ macro_rules! choice {
         pub enum $role {
             $(
                 #[schemars(extend("description" = $crate::closures::role::described::<$from::$law::$variant>()))]
-                #[doc = concat!("[`", stringify!($law), "::", stringify!($variant), "`]")]
+                #[doc = concat!("[`", stringify!($variant), "`](", stringify!($from::$law::$variant), ")")]
                 $(#[$attribute])*
                 $variant $(($crate::closures::role::choice!(@of $from $law $variant $dots)))?,
             )*
@@ -170,3 +170,41 @@ macro_rules! role {
 }
 
 pub(crate) use {choice, laws, role};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::closures::friction::{self, Coulomb};
+    use crate::closures::mixture_viscosity::MixtureViscosity;
+
+    choice! {
+        /// One law.
+        pub enum One from friction {
+            coulomb::Coulomb(..),
+        }
+    }
+
+    #[test]
+    fn only_is_a_choice_of_one_to_the_letter() {
+        let law = Coulomb { mu_s: 0.4 };
+        let text = toml::to_string(&Only(law)).unwrap();
+        assert_eq!(text, "law = \"coulomb\"\nmu_s = 0.4\n");
+        assert_eq!(text, toml::to_string(&One::Coulomb(law)).unwrap());
+        assert_eq!(One::Coulomb(law).info().law, "coulomb");
+        assert_eq!(toml::from_str::<Only<Coulomb>>(&text).unwrap(), Only(law));
+        assert!(toml::from_str::<Only<Coulomb>>(&text.replace("coulomb", "mu-i")).is_err());
+        let laws = |schema: Schema| schema.get("oneOf").unwrap().to_string();
+        let generator = &mut SchemaGenerator::default();
+        assert_eq!(laws(Only::<Coulomb>::json_schema(generator)), laws(One::json_schema(generator)));
+    }
+
+    #[test]
+    fn the_words_of_a_choice_are_those_of_its_laws() {
+        for (law, text) in [(MixtureViscosity::Clear, "clear"), (MixtureViscosity::Einstein, "einstein")] {
+            assert_eq!(toml::to_string(&law).unwrap(), format!("law = \"{text}\"\n"));
+            assert_eq!(law.info().law, text);
+        }
+        let described = format!("{:?}", MixtureViscosity::json_schema(&mut SchemaGenerator::default()));
+        assert!(described.contains("The grains do not change the viscosity."), "{described}");
+    }
+}

@@ -13,8 +13,6 @@ pub mod ouriemi;
 
 use std::ops::ControlFlow;
 
-use bed_results::closure_name;
-
 use crate::case::tables::only;
 use crate::models::premises::outside;
 use crate::numerics::root::NoRoot;
@@ -22,6 +20,7 @@ use crate::result::{
     Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch,
     quantity,
 };
+use bed_results::closure_name;
 
 only!(
     /// Closed forms.
