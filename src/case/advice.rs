@@ -11,11 +11,11 @@ impl Fault {
             Self::Unknown { allowed, .. }
             | Self::NotUsed { allowed, .. }
             | Self::UnknownWord { allowed, .. }
+            | Self::LawMismatch { allowed, .. }
             | Self::Drives { allowed, .. } => Some(allowed.join(", ")),
             Self::RegularisationSize { .. } => {
                 Some("one of lambda, lambda_scaled with a law; neither with law = \"none\"".into())
             }
-            Self::LawMismatch { allowed, .. } => Some(allowed.join(", ")),
             Self::Missing { allowed, .. } | Self::NotFinite { allowed, .. } | Self::OutOfRange { allowed, .. } => {
                 Some(allowed.clone())
             }

@@ -8,6 +8,7 @@ use super::fault::{Fault, Violation};
 use super::kind::{Kind, Kinds};
 use super::schema;
 use super::wording::{choices, expected, header, shown};
+use crate::closures::catalogue;
 
 /// What a document says, and what is wrong with it.
 pub(super) struct Diagnosis<'k> {
@@ -186,11 +187,17 @@ impl<'k> Walk<'k> {
                 if let Some((_, schema)) = alternatives.iter().find(|(name, _)| name == law) {
                     return self.table(node, schema, path);
                 }
-                let fault = Fault::UnknownWord {
-                    name: shown(&law_path),
-                    word: law.clone(),
-                    nearest: nearest(law, laws.iter().copied()),
-                    allowed: laws.iter().map(|&l| l.to_owned()).collect(),
+                let allowed = laws.iter().map(|&l| l.to_owned()).collect();
+                let fault = match (self.kind, path.strip_prefix("closures.")) {
+                    (Some(kind), Some(family)) if self.is_law(family, law) => {
+                        Fault::LawMismatch { family: family.into(), law: law.clone(), model: kind.name.into(), allowed }
+                    }
+                    _ => Fault::UnknownWord {
+                        name: shown(&law_path),
+                        word: law.clone(),
+                        nearest: nearest(law, laws.iter().copied()),
+                        allowed,
+                    },
                 };
                 self.report(fault, &law_path, value);
             }
@@ -208,6 +215,14 @@ impl<'k> Walk<'k> {
             }
         }
         Value::Null
+    }
+
+    /// Whether the family has a law of this name, here or in another model.
+    fn is_law(&self, family: &str, law: &str) -> bool {
+        let path = format!("/properties/closures/properties/{family}");
+        let elsewhere =
+            self.kinds.iter().filter_map(|kind| schema::alternatives(kind.schema.pointer(&path)?)).flatten();
+        catalogue().any(|info| info.family == family && info.law == law) || elsewhere.into_iter().any(|(l, _)| l == law)
     }
 
     fn table(&mut self, node: &Node, schema: &Value, path: &str) -> Value {

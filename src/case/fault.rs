@@ -272,13 +272,13 @@ pub enum Fault {
     #[error("closures.{family} law \"{law}\" does not go with {model}")]
     LawMismatch {
         /// closure family
-        family: &'static str,
+        family: String,
         /// law as written
-        law: &'static str,
+        law: String,
         /// the model
         model: String,
         /// laws that go with it
-        allowed: Vec<&'static str>,
+        allowed: Vec<String>,
     },
     /// A wall rougher than the flow is high.
     #[error("the roughness length k_s/30 = {length} m is not below the flow height {height} m")]

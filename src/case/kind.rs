@@ -26,13 +26,15 @@ pub trait Tables: Clone + Debug + Serialize + DeserializeOwned + JsonSchema + Se
 
 /// Declares the tables of a model: a struct with these tables and those of every case.
 ///
-/// The doc line of the struct is the description of the model in `list models`, schema and reference.
+/// A law may be open, `pub struct Mine<F: Role = Usual>`. The doc line of the struct is the description of the model in `list models`, schema and reference.
 #[macro_export]
 macro_rules! tables {
-    ($(#[$doc:meta])* pub struct $name:ident { $($(#[$attribute:meta])* $table:ident: $type:ty,)* }) => {
-        $(#[$doc])*
+    ($(#[$doc:meta])* pub struct $name:ident $(<$law:ident: $role:ident = $usual:ty>)? { $($(#[$attribute:meta])* $table:ident: $type:ty,)* }) => {
         #[derive(Clone, Debug, PartialEq, ::serde::Serialize, ::serde::Deserialize, ::schemars::JsonSchema)]
-        pub struct $name {
+        #[serde(bound = "")]
+        #[schemars(bound = "")]
+        $(#[$doc])*
+        pub struct $name $(<$law: $role = $usual>)? {
             /// Version of the file format.
             #[schemars(extend("minimum" = 1, "maximum" = 1))]
             pub format: u32,
@@ -47,7 +49,7 @@ macro_rules! tables {
             pub limit: Option<$crate::case::checks::Limit>,
         }
 
-        impl $crate::case::Tables for $name {
+        impl $(<$law: $role>)? $crate::case::Tables for $name $(<$law>)? {
             fn about(&self) -> &$crate::case::tables::About {
                 &self.case
             }

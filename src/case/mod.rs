@@ -4,7 +4,7 @@
 //! text ─► document (tree with spans, --set applied) ─► diagnose (against the schema) ─► tables (typed, SI)
 //! ```
 //!
-//! The schema is generated from the structs in [`tables`], and the same schema checks the files, so the two cannot drift.
+//! The schema is generated from the structs of the tables, and the same schema checks the files, so the two cannot drift.
 
 mod advice;
 mod angle;

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::{CliError, Verb, answer, say};
 use crate::case::{Case, schema, shipped};
-use crate::closures::{CATALOGUE, Standing};
+use crate::closures::{Standing, catalogue};
 use crate::model::Registry;
 
 /// List models, shipped cases and closures.
@@ -48,10 +48,10 @@ impl Verb for List {
         }
         if wanted(What::Closures) {
             let standing = |s| if s == Standing::Validated { "" } else { "  (experimental)" };
-            let row = |i: &&crate::closures::Info| {
+            let row = |i: &crate::closures::Info| {
                 (format!("{}/{}", i.family, i.law), format!("{}{}", i.equation, standing(i.standing)))
             };
-            sections.push(("closures", CATALOGUE.iter().map(row).collect()));
+            sections.push(("closures", catalogue().map(row).collect()));
         }
         if self.json {
             let object = |(title, rows): &(&str, Vec<(String, String)>)| {

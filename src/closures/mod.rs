@@ -16,6 +16,7 @@ pub mod mixing_length;
 pub mod mixture_viscosity;
 pub mod rearrangement;
 pub mod regularisation;
+pub mod role;
 pub mod side_wall;
 pub mod suspension;
 pub mod transport;
@@ -78,60 +79,34 @@ pub struct Info {
     pub standing: Standing,
 }
 
-/// All laws of all families.
-pub static CATALOGUE: &[&Info] = &[
-    &friction::coulomb::INFO,
-    &friction::mu_i::INFO,
-    &friction::mu_iv::INFO,
-    &rearrangement::THREE,
-    &rearrangement::FREE_FALL,
-    &mixture_viscosity::clear::INFO,
-    &mixture_viscosity::einstein::INFO,
-    &mixture_viscosity::boyer::INFO,
-    &dilatancy::none::INFO,
-    &dilatancy::phi_i::INFO,
-    &dilatancy::phi_iv::INFO,
-    &drag::none::INFO,
-    &drag::carman_kozeny::INFO,
-    &drag::dallavalle::INFO,
-    &drag::dallavalle_grain::INFO,
-    &fluctuation::none::INFO,
-    &fluctuation::random_walk::INFO,
-    &mixing_length::none::INFO,
-    &mixing_length::prandtl::INFO,
-    &mixing_length::li_sawamoto::INFO,
-    &mixing_length::low_submergence::INFO,
-    &suspension::NONE,
-    &suspension::rouse::INFO,
-    &lid::FREE_SURFACE,
-    &lid::STRESS,
-    &lid::SOLVED,
-    &lid::colebrook_white::INFO,
-    &wall::rough::INFO,
-    &side_wall::none::INFO,
-    &side_wall::graf_altinakar_published::INFO,
-    &side_wall::graf_altinakar::INFO,
-    &side_wall::blasius::INFO,
-    &contact::linear_spring::INFO,
-    &kinetic::garzo_dufty::INFO,
-    &kinetic::granular::FRICTIONAL_COLLISIONAL,
-    &kinetic::inertial::INFO,
-    &kinetic::radial::CARNAHAN_STARLING,
-    &kinetic::radial::TORQUATO,
-    &kinetic::radial::CHIALVO_SUNDARESAN,
-    &kinetic::radial::FRICTIONAL,
-    &kinetic::restitution::PLAIN,
-    &kinetic::restitution::JENKINS_ZHANG,
-    &kinetic::saltation::INFO,
-    &kinetic::drag_work::LINEAR,
-    &kinetic::drag_work::QUADRATIC,
-    &kinetic::elastic::NONE,
-    &kinetic::elastic::JOHNSON_JACKSON,
-    &kinetic::static_friction::FIT,
-    &kinetic::static_friction::GIVEN,
-    &dispersion::NONE,
-    &dispersion::GRADIENT,
+/// The laws of each role, in the order of the catalogue.
+static ROLES: &[&[&Info]] = &[
+    friction::LAWS,
+    rearrangement::LAWS,
+    mixture_viscosity::LAWS,
+    dilatancy::LAWS,
+    drag::LAWS,
+    fluctuation::LAWS,
+    mixing_length::LAWS,
+    suspension::LAWS,
+    lid::LAWS,
+    wall::LAWS,
+    side_wall::LAWS,
+    contact::LAWS,
+    kinetic::LAWS,
+    kinetic::radial::LAWS,
+    kinetic::dissipation::LAWS,
+    kinetic::saltation::LAWS,
+    kinetic::drag_work::LAWS,
+    kinetic::elastic::LAWS,
+    kinetic::static_friction::LAWS,
+    dispersion::LAWS,
 ];
+
+/// All laws of all roles.
+pub fn catalogue() -> impl Iterator<Item = &'static Info> {
+    ROLES.iter().copied().flatten().copied()
+}
 
 #[cfg(test)]
 mod tests {
@@ -139,13 +114,8 @@ mod tests {
 
     #[test]
     fn no_law_is_listed_twice() {
-        for (i, a) in CATALOGUE.iter().enumerate() {
-            assert!(
-                CATALOGUE[i + 1..].iter().all(|b| (a.family, a.law) != (b.family, b.law)),
-                "{}/{}",
-                a.family,
-                a.law
-            );
+        for (i, a) in catalogue().enumerate() {
+            assert!(catalogue().skip(i + 1).all(|b| (a.family, a.law) != (b.family, b.law)), "{}/{}", a.family, a.law);
         }
     }
 

@@ -29,6 +29,19 @@ pub enum Smoothing {
     Papanastasiou,
 }
 
+impl Smoothing {
+    /// R over the shear rate γ and the size λ, as text; `None` for the exact yield.
+    #[must_use]
+    pub fn equation(self) -> Option<&'static str> {
+        match self {
+            Self::None => None,
+            Self::Simple => Some("γ/(|γ| + λ)"),
+            Self::BercovierEngelman => Some("γ/sqrt(γ² + λ²)"),
+            Self::Papanastasiou => Some("sign(γ) (1 - exp(-|γ|/λ))"),
+        }
+    }
+}
+
 /// A law and its size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regularisation {

@@ -10,6 +10,8 @@
 
 use super::setup::{Bottom, Forcing, Setup, Top, ViscousForm};
 use super::{ColumnError, Grid};
+use crate::closures::mixing_length::Length;
+use crate::closures::mixture_viscosity::RelativeViscosity;
 
 /// The couplings of all faces. Depends on the grains and the boundaries, not on the velocity.
 #[derive(Clone, Debug, Default)]

@@ -16,6 +16,7 @@ mod yielding;
 
 use crate::dem::GrainBed;
 use crate::model::{Entry, OnMesh, Registry};
+pub use yielding::{RegularisationTable, YieldGrid};
 
 /// The models of this program, from least to most.
 #[must_use]

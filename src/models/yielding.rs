@@ -1,10 +1,51 @@
 //! What the models with a yield stress share: the one size of its regularisation, and how they converge over it.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::case::Fault;
-use crate::case::tables::RegularisationTable;
+use crate::case::tables::cells;
 use crate::closures::regularisation::Smoothing;
 use crate::model::{Faults, Law, Meshes, Rung, Sizes, Smoothed};
 use crate::models::exact::bed::LaminarBed;
+
+/// How the yield stress is smoothed, and by how much: a size for every law but `none`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct RegularisationTable {
+    /// Law of the smoothing.
+    #[serde(default)]
+    pub law: Smoothing,
+    /// Size: shear rate below which the material creeps instead of standing still.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1/s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
+    pub lambda: Option<f64>,
+    /// Size in the model's unit of shear rate: (rho_p - rho_f) g H/eta for a bed; for a Bingham fluid U_m/H, or G H/eta where the gradient G is given.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub lambda_scaled: Option<f64>,
+}
+
+/// Cells of a solver.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct YieldGrid {
+    /// Number of cells.
+    #[serde(default = "cells")]
+    #[schemars(extend("minimum" = 8, "maximum" = 1_000_000))]
+    pub cells: usize,
+    /// Whether a node is placed on the yield level, where the solution has a corner.
+    #[serde(default = "yes")]
+    pub yield_node: bool,
+}
+
+impl Default for YieldGrid {
+    fn default() -> Self {
+        Self { cells: cells(), yield_node: true }
+    }
+}
+
+fn yes() -> bool {
+    true
+}
 
 /// The size of a regularisation, as it was given.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use bedload::closures::{CATALOGUE, Standing};
+use bedload::closures::{Standing, catalogue};
 
 use crate::support::{REGISTRY, Scratch, files, project};
 
@@ -237,7 +237,7 @@ const END: &str = "<!-- end of laws -->\n";
 /// All laws of the catalogue, a row each.
 fn laws() -> String {
     let mut text = String::from("| law | equation | source | given for |\n|---|---|---|---|\n");
-    for law in CATALOGUE {
+    for law in catalogue() {
         let ranges: Vec<String> = law.ranges.iter().map(ToString::to_string).collect();
         let standing = if law.standing == Standing::Experimental { ", experimental" } else { "" };
         text += &format!(

@@ -24,6 +24,7 @@ mod limits;
 mod lock;
 mod mutate;
 mod never_panics;
+mod own_law;
 mod own_model;
 mod page;
 mod paths;

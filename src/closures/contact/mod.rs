@@ -1,20 +1,15 @@
 //! What two grains that touch do to each other.
 
-pub mod linear_spring;
 pub mod restitution;
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-pub use linear_spring::LinearSpring;
+use super::role::laws;
 
-/// Law of contact.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum Contact {
-    /// Linear springs and a dashpot, Coulomb slider.
-    LinearSpring(LinearSpring),
-}
+laws! {{
+    linear_spring::LinearSpring(..),
+}}
 
 /// What the dashpot may do while grains part.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]

@@ -1,5 +1,7 @@
 //! The neutral law: grains keep the solid fraction of the bed.
 
+use schemars::JsonSchema;
+
 use crate::closures::{Info, Standing};
 
 /// Catalogue entry.
@@ -11,3 +13,7 @@ pub static INFO: Info = Info {
     ranges: &[],
     standing: Standing::Validated,
 };
+
+/// The solid fraction of the bed, sheared or not.
+#[derive(JsonSchema)]
+pub struct None;

@@ -28,7 +28,7 @@ pub static INFO: Info = Info {
     standing: Standing::Validated,
 };
 
-/// Solid fraction that falls with the root of the inertial number.
+/// The solid fraction falls with the root of the inertial number.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct PhiI {
     /// Solid fraction of the bed at rest.

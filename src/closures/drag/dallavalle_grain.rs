@@ -35,14 +35,6 @@ pub static INFO: Info = Info {
     standing: Standing::Validated,
 };
 
-/// Law of the drag on single grains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum GrainDrag {
-    /// Drag of Dallavalle, hindered by the other grains.
-    DallavalleGrain(DallavalleGrain),
-}
-
 /// Drag of Dallavalle, hindered by the other grains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct DallavalleGrain {

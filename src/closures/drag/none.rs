@@ -1,5 +1,7 @@
 //! The neutral law: the phases move together and exchange whatever that takes.
 
+use schemars::JsonSchema;
+
 use crate::closures::{Info, Standing};
 
 /// Catalogue entry.
@@ -11,3 +13,7 @@ pub static INFO: Info = Info {
     ranges: &[],
     standing: Standing::Validated,
 };
+
+/// The phases move together; nothing is computed.
+#[derive(JsonSchema)]
+pub struct None;

@@ -1,5 +1,7 @@
 //! No fluctuations.
 
+use schemars::JsonSchema;
+
 use crate::closures::{Info, Standing};
 
 /// Catalogue entry.
@@ -11,3 +13,7 @@ pub static INFO: Info = Info {
     ranges: &[],
     standing: Standing::Validated,
 };
+
+/// Grains meet the mean flow.
+#[derive(JsonSchema)]
+pub struct None;

@@ -18,11 +18,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::closures::{Info, Range, Standing};
+use super::{FrictionLaw, INERTIAL_RANGE};
+use crate::closures::{Info, Standing};
 use crate::numerics::dual::Real;
-
-/// Where the dense-flow law holds; below it the flow is quasi-static, above it collisional.
-pub const INERTIAL_RANGE: Range = Range { variable: "inertial_number", min: 0.0, max: 2.0 };
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
@@ -49,12 +47,6 @@ pub struct MuI {
 }
 
 impl MuI {
-    /// Friction coefficient at the inertial number `i`.
-    #[must_use]
-    pub fn mu(&self, i: f64) -> f64 {
-        self.mu_s + (self.mu_2 - self.mu_s) * i / (self.i_0 + i)
-    }
-
     /// The inertial number at which the friction is `mu`: 0 up to mu_s, `None` from mu_2 on.
     #[must_use]
     pub fn inertial_number(&self, mu: f64) -> Option<f64> {
@@ -66,43 +58,35 @@ impl MuI {
             None
         }
     }
+}
 
-    /// C of Barker et al. (2015): the equations are ill-posed in two and three dimensions where it is positive.
-    #[must_use]
-    pub fn well_posedness(&self, i: f64) -> f64 {
-        let mu = self.mu(i);
-        let n = (self.mu_2 - self.mu_s) * self.i_0 * i / ((self.i_0 + i).powi(2) * mu);
-        4.0 * n * (n - 1.0) + (mu * (1.0 - 0.5 * n)).powi(2)
+impl FrictionLaw for MuI {
+    fn mu<T: Real>(&self, i: T) -> T {
+        i * (self.mu_2 - self.mu_s) / (i + self.i_0) + self.mu_s
     }
 
-    /// Inertial numbers between which the equations are well-posed in two and three dimensions; `None` if nowhere.
-    #[must_use]
-    pub fn well_posed(&self) -> Option<(f64, f64)> {
-        // n, and -C with it, is largest where mu' I is: near I_0 and below it.
-        let trial = |k: i32| self.i_0 * (0.02 * f64::from(k)).exp();
-        let best = (-400..400).map(trial).min_by(|a, b| self.well_posedness(*a).total_cmp(&self.well_posedness(*b)))?;
-        if self.well_posedness(best) > 0.0 {
-            return None;
-        }
-        let edge = |mut outside: f64, mut inside: f64| {
-            for _ in 0..100 {
-                let middle = (outside * inside).sqrt();
-                if self.well_posedness(middle) > 0.0 {
-                    outside = middle;
-                } else {
-                    inside = middle;
-                }
-            }
-            inside
-        };
-        Some((edge(1e-12 * self.i_0, best), edge(1e12 * self.i_0, best)))
+    fn least(&self) -> f64 {
+        self.mu_s
     }
 
-    /// The inertial number at which the regularised friction `mu(I) I/(I + creep)` is `r`, between 0 and mu_2; `creep` is
-    /// the regularisation lambda times the rearrangement time. Closed form, and for `creep = 0` the exact yield: the
-    /// positive root of `(mu_2 - r) I^2 - (I_0 (r - mu_s) + r creep) I - r creep I_0 = 0`.
-    #[must_use]
-    pub fn mobilised<T: Real>(&self, r: T, creep: T) -> T {
+    fn most(&self) -> f64 {
+        self.mu_2
+    }
+
+    fn half_way(&self) -> f64 {
+        self.i_0
+    }
+
+    fn with_half_way(self, i_0: f64) -> Self {
+        Self { i_0, ..self }
+    }
+
+    fn constants(&self) -> Vec<(&'static str, f64)> {
+        vec![("μ_s", self.mu_s), ("μ_2", self.mu_2), ("I_0", self.i_0)]
+    }
+
+    /// In closed form: the positive root of `(mu_2 - r) I^2 - (I_0 (r - mu_s) + r creep) I - r creep I_0 = 0`.
+    fn mobilised<T: Real>(&self, r: T, creep: T) -> T {
         let a = -r + self.mu_2;
         let above = (r - self.mu_s) * self.i_0;
         if creep.value() == 0.0 {
@@ -112,6 +96,12 @@ impl MuI {
         let root = (b * b + a * c * 4.0).sqrt();
         // The form without a difference of nearly equal numbers.
         if b.value() >= 0.0 { (b + root) / (a * 2.0) } else { c * 2.0 / (root - b) }
+    }
+
+    fn well_posedness(&self, i: f64) -> f64 {
+        let mu = self.mu(i);
+        let n = (self.mu_2 - self.mu_s) * self.i_0 * i / ((self.i_0 + i).powi(2) * mu);
+        4.0 * n * (n - 1.0) + (mu * (1.0 - 0.5 * n)).powi(2)
     }
 }
 

@@ -22,6 +22,11 @@
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{DragWork, Kinetic, Radial, Stresses};
+use crate::closures::kinetic::radial::AtContact;
 use crate::closures::{Info, Range, Standing};
 use crate::numerics::dual::Real;
 
@@ -37,6 +42,46 @@ pub static INFO: Info = Info {
     ranges: &[RESTITUTION_RANGE],
     standing: Standing::Validated,
 };
+
+/// The classical kinetic theory of frictionless grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GarzoDufty {
+    /// Radial distribution function.
+    #[serde(default = "smooth")]
+    pub radial: Radial,
+}
+
+fn smooth() -> Radial {
+    Radial::ChialvoSundaresan
+}
+
+impl Default for GarzoDufty {
+    /// As published.
+    fn default() -> Self {
+        Self { radial: smooth() }
+    }
+}
+
+impl GarzoDufty {
+    /// The theory of grains with the restitution `e`; the friction `mu_p` counts in the frictional `g_0` alone.
+    #[must_use]
+    pub fn kinetic(&self, e: f64, mu_p: f64) -> Kinetic {
+        Kinetic {
+            e,
+            e_eff: e,
+            radial: self.radial,
+            a: self.radial.coefficient(mu_p),
+            saltation: None,
+            drag_work: DragWork::Linear,
+        }
+    }
+}
+
+impl Stresses for GarzoDufty {
+    fn parts(&self) -> Vec<&'static Info> {
+        vec![self.radial.info()]
+    }
+}
 
 /// `F1` at the solid fraction `phi`, for `g0` and the restitution `e`.
 #[must_use]

@@ -17,7 +17,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::closures::friction::{MuI, mu_i::INERTIAL_RANGE};
+use super::Stresses;
+use crate::closures::friction::{INERTIAL_RANGE, MuI};
 use crate::closures::{Info, Standing};
 use crate::numerics::dual::Real;
 
@@ -34,7 +35,7 @@ pub static INFO: Info = Info {
     standing: Standing::Experimental,
 };
 
-/// Constants of dense granular flow.
+/// Dense granular flow: mu(I) and phi(I).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Inertial {
     /// Friction coefficient at vanishing inertial number.
@@ -78,6 +79,12 @@ impl Default for Inertial {
     }
 }
 
+impl Stresses for Inertial {
+    fn parts(&self) -> Vec<&'static Info> {
+        Vec::new()
+    }
+}
+
 impl Inertial {
     /// `(b phi/(phi_max - phi))^2/phi`, at the distance `gap` > 0 of `phi` to phi_max.
     #[must_use]
@@ -101,6 +108,7 @@ impl Inertial {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::closures::friction::FrictionLaw;
     use approx::assert_relative_eq;
 
     const LAW: Inertial = Inertial { mu_s: 0.35, mu_2: 0.97, i_0: 0.69, b: 0.31 };

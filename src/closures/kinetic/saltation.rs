@@ -15,6 +15,9 @@
 //! is limited, and the run reports it. Limits: that of the theory where drag is weak, that of saltation where grains are few.
 //! Source: Jenkins, Cantat & Valance (2010), Phys. Rev. E 82, 020301; Chassagne et al. (2023), eq. (3.5)-(3.10).
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::closures::{Info, Range, Standing};
 use crate::numerics::dual::Real;
 
@@ -27,6 +30,20 @@ pub static INFO: Info = Info {
     ranges: &[Range { variable: "phi", min: 0.0, max: 0.635 }],
     standing: Standing::Validated,
 };
+
+/// Catalogue entries of the role.
+pub(in crate::closures) static LAWS: &[&Info] = &[&INFO];
+
+/// What limits the kinetic parts of viscosity and conductivity.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Limit {
+    /// Nothing.
+    None,
+    /// The drag on grains that fly one by one.
+    #[default]
+    Harmonic,
+}
 
 /// Constants of saltation.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -31,7 +31,7 @@ pub static INFO: Info = Info {
     standing: Standing::Validated,
 };
 
-/// The friction law of Colebrook and White.
+/// A lid with the friction law of Colebrook and White.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ColebrookWhite {
     /// Sand roughness of the lid; 0 is smooth.

@@ -30,7 +30,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::karman;
+use super::{Length, above_zero, karman};
 use crate::closures::{Info, Range, Standing};
 use crate::numerics::dual::Real;
 
@@ -73,17 +73,17 @@ pub struct LiSawamoto {
     pub below_packed: BelowPacked,
 }
 
-impl LiSawamoto {
-    /// What a layer of the solid fraction `phi` adds to the integral, per height.
-    #[must_use]
-    pub fn clearance<T: Real>(&self, phi: T) -> T {
+impl Length for LiSawamoto {
+    fn clearance<T: Real>(&self, phi: T) -> T {
         let clear = (-phi + self.phi_max) / self.phi_max;
         if self.below_packed == BelowPacked::Clipped && clear.value() < 0.0 { T::constant(0.0) } else { clear }
     }
 
-    /// Mixing lengths \[m] at the `faces` \[m], for the solid fractions `phi` of the cells between them.
-    /// `lengths` has one entry per face, `phi` one fewer.
-    pub fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]) {
+    fn length<T: Real>(&self, integral: T, _: T) -> T {
+        above_zero(integral, self.kappa)
+    }
+
+    fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]) {
         let packed = match self.below_packed {
             BelowPacked::Published | BelowPacked::Clipped => 0,
             // The highest packed cell itself counts as it is: a fraction of exactly phi_max adds nothing.

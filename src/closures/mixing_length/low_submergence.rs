@@ -14,6 +14,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Length;
 use crate::closures::{Info, Range, Standing};
 use crate::numerics::dual::Real;
 
@@ -27,7 +28,7 @@ pub static INFO: Info = Info {
     standing: Standing::Experimental,
 };
 
-/// Eddies between grains.
+/// Eddies between the grains of a shallow flow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LowSubmergence {
     /// Length s; 3 grain diameters in the source.
@@ -41,22 +42,23 @@ pub struct LowSubmergence {
     pub phi_max: f64,
 }
 
-impl LowSubmergence {
-    /// Mixing length \[m] at the solid fraction `phi`.
-    #[must_use]
-    pub fn length<T: Real>(&self, phi: T) -> T {
+impl Length for LowSubmergence {
+    fn clearance<T: Real>(&self, _: T) -> T {
+        T::constant(0.0)
+    }
+
+    fn length<T: Real>(&self, _: T, phi: T) -> T {
         let gap = -phi + self.phi_max;
         let length = gap * gap * gap * self.scale;
         if length.value() > self.least { length } else { T::constant(self.least) }
     }
 
-    /// Mixing lengths \[m] at the faces, for the solid fractions `phi` of the cells between them.
-    pub fn fill(&self, phi: &[f64], lengths: &mut [f64]) {
+    fn fill(&self, _: &[f64], phi: &[f64], lengths: &mut [f64]) {
         for (f, length) in lengths.iter_mut().enumerate() {
             let (below, above) = (phi.get(f.wrapping_sub(1)), phi.get(f));
             *length = match (below, above) {
-                (Some(a), Some(b)) => self.length(0.5 * (a + b)),
-                (Some(a), None) | (None, Some(a)) => self.length(*a),
+                (Some(a), Some(b)) => self.length(0.0, 0.5 * (a + b)),
+                (Some(a), None) | (None, Some(a)) => self.length(0.0, *a),
                 (None, None) => self.least,
             };
         }
@@ -73,13 +75,13 @@ mod tests {
         let d = 7e-3;
         let law = LowSubmergence { scale: 3.0 * d, least: 0.2 * d, phi_max: 0.635 };
         // 3 0.635^3 = 0.768.
-        assert_relative_eq!(law.length(0.0) / d, 0.768_143, max_relative = 1e-6);
-        assert_eq!(law.length(0.6), 0.2 * d);
+        assert_relative_eq!(law.length(0.0, 0.0) / d, 0.768_143, max_relative = 1e-6);
+        assert_eq!(law.length(0.0, 0.6), 0.2 * d);
         // They meet where (phi_max - phi)^3 = 1/15.
         let meet = 0.635 - (1.0_f64 / 15.0).cbrt();
-        assert_relative_eq!(law.length(meet - 1e-9), 0.2 * d, max_relative = 1e-6);
+        assert_relative_eq!(law.length(0.0, meet - 1e-9), 0.2 * d, max_relative = 1e-6);
         let mut lengths = [0.0; 3];
-        law.fill(&[0.6, 0.0], &mut lengths);
-        assert_eq!(lengths, [law.length(0.6), law.length(0.3), law.length(0.0)]);
+        law.fill(&[], &[0.6, 0.0], &mut lengths);
+        assert_eq!(lengths, [law.length(0.0, 0.6), law.length(0.0, 0.3), law.length(0.0, 0.0)]);
     }
 }

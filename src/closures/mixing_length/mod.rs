@@ -1,85 +1,41 @@
 //! Turbulence by a mixing length: `R_xz = rho_f l_m^2 |du/dz| du/dz`.
 
-pub mod li_sawamoto;
-pub mod low_submergence;
-pub mod none;
-pub mod prandtl;
-
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
-use super::Info;
+use super::role::role;
 use crate::numerics::dual::Real;
-pub use li_sawamoto::{BelowPacked, LiSawamoto};
-pub use low_submergence::LowSubmergence;
-pub use prandtl::Prandtl;
+pub use li_sawamoto::BelowPacked;
 
-/// Law of the mixing length.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum MixingLength {
-    /// No turbulence.
-    #[default]
-    None,
-    /// Proportional to the distance from the wall.
-    Prandtl(Prandtl),
-    /// Grains below damp the turbulence above.
-    LiSawamoto(LiSawamoto),
-    /// Eddies between the grains of a shallow flow.
-    LowSubmergence(LowSubmergence),
-}
-
-impl MixingLength {
-    /// Mixing lengths \[m] at the `faces` \[m], ascending from the wall, for the solid fractions `phi` of the cells between
-    /// them. `lengths` has one entry per face, `phi` one fewer.
-    pub fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]) {
-        match self {
-            Self::None => lengths.fill(0.0),
-            Self::Prandtl(law) => {
-                let wall = faces.first().copied().unwrap_or_default();
-                faces.iter().zip(lengths).for_each(|(z, length)| *length = law.length(z - wall));
-            }
-            Self::LiSawamoto(law) => law.fill(faces, phi, lengths),
-            Self::LowSubmergence(law) => law.fill(phi, lengths),
-        }
+role! {
+    /// Law of the mixing length.
+    #[derive(Default)]
+    pub enum MixingLength {
+        #[default]
+        none::None,
+        prandtl::Prandtl(..),
+        li_sawamoto::LiSawamoto(..),
+        low_submergence::LowSubmergence(..),
     }
 
-    /// What a layer of the solid fraction `phi` adds to the integral behind the mixing length, per height; 0 for a local law.
-    #[must_use]
-    pub fn clearance<T: Real>(&self, phi: T) -> T {
-        match self {
-            Self::None | Self::LowSubmergence(_) => T::constant(0.0),
-            Self::Prandtl(_) => T::constant(1.0),
-            Self::LiSawamoto(law) => law.clearance(phi),
-        }
-    }
-
-    /// Mixing length \[m] for the integral of [`Self::clearance`] from the wall \[m] and the solid fraction `phi` there.
-    #[must_use]
-    pub fn length<T: Real>(&self, integral: T, phi: T) -> T {
-        let kappa = match self {
-            Self::None => 0.0,
-            Self::Prandtl(law) => law.kappa,
-            Self::LiSawamoto(law) => law.kappa,
-            Self::LowSubmergence(law) => return law.length(phi),
-        };
-        if integral.value() > 0.0 { integral * kappa } else { T::constant(0.0) }
-    }
-
-    /// Catalogue entry of the law.
-    #[must_use]
-    pub fn info(&self) -> &'static Info {
-        match self {
-            Self::None => &none::INFO,
-            Self::Prandtl(_) => &prandtl::INFO,
-            Self::LiSawamoto(_) => &li_sawamoto::INFO,
-            Self::LowSubmergence(_) => &low_submergence::INFO,
-        }
+    /// What the laws of the mixing length answer.
+    pub trait Length {
+        /// Mixing lengths [m] at the `faces` [m], ascending from the wall, for the solid fractions `phi` of the cells between
+        /// them. `lengths` has one entry per face, `phi` one fewer.
+        fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]);
+        /// What a layer of the solid fraction `phi` adds to the integral behind the mixing length, per height; 0 for a local law.
+        #[must_use]
+        fn clearance<T: Real>(&self, phi: T) -> T;
+        /// Mixing length [m] for the integral of [`Self::clearance`] from the wall [m] and the solid fraction `phi` there.
+        #[must_use]
+        fn length<T: Real>(&self, integral: T, phi: T) -> T;
     }
 }
 
 fn karman() -> f64 {
     0.41
+}
+
+/// `kappa` times the integral, where that is more than nothing.
+fn above_zero<T: Real>(integral: T, kappa: f64) -> T {
+    if integral.value() > 0.0 { integral * kappa } else { T::constant(0.0) }
 }
 
 #[cfg(test)]

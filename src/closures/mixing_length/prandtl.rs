@@ -11,8 +11,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::karman;
+use super::{Length, above_zero, karman};
 use crate::closures::{Info, Standing};
+use crate::numerics::dual::Real;
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
@@ -33,11 +34,18 @@ pub struct Prandtl {
     pub kappa: f64,
 }
 
-impl Prandtl {
-    /// Mixing length \[m] at the distance `z` \[m] from the wall.
-    #[must_use]
-    pub fn length(&self, z: f64) -> f64 {
-        self.kappa * z
+impl Length for Prandtl {
+    fn fill(&self, faces: &[f64], _: &[f64], lengths: &mut [f64]) {
+        let wall = faces.first().copied().unwrap_or_default();
+        faces.iter().zip(lengths).for_each(|(z, length)| *length = self.kappa * (z - wall));
+    }
+
+    fn clearance<T: Real>(&self, _: T) -> T {
+        T::constant(1.0)
+    }
+
+    fn length<T: Real>(&self, integral: T, _: T) -> T {
+        above_zero(integral, self.kappa)
     }
 }
 
@@ -48,7 +56,7 @@ mod tests {
     #[test]
     fn vanishes_at_the_wall_and_grows_by_kappa() {
         let law = Prandtl { kappa: 0.4 };
-        assert_eq!(law.length(0.0), 0.0);
-        assert_eq!(law.length(2.0), 0.8);
+        assert_eq!(law.length(0.0, 0.0), 0.0);
+        assert_eq!(law.length(2.0, 0.0), 0.8);
     }
 }

@@ -11,7 +11,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::RelativeViscosity;
 use crate::closures::{Info, Range, Standing};
+use crate::numerics::dual::Real;
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
@@ -31,24 +33,31 @@ pub struct Boyer {
     pub phi_max: f64,
 }
 
-impl Boyer {
-    /// `eta_e/eta` at the solid fraction `phi` below `phi_max`.
-    #[must_use]
-    pub fn relative(&self, phi: f64) -> f64 {
+impl RelativeViscosity for Boyer {
+    fn relative(&self, phi: f64) -> f64 {
         1.0 + 2.5 * phi / (1.0 - phi / self.phi_max)
+    }
+
+    fn fluidity<T: Real>(&self, phi: T) -> T {
+        let gap = -phi / self.phi_max + 1.0;
+        gap / (gap + phi * 2.5)
+    }
+
+    fn phi_max(&self) -> f64 {
+        self.phi_max
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::closures::mixture_viscosity::einstein;
+    use crate::closures::mixture_viscosity::einstein::Einstein;
     use approx::assert_relative_eq;
 
     #[test]
     fn dilute_limit_is_einstein_and_jamming_diverges() {
         let law = Boyer { phi_max: 0.585 };
-        assert_relative_eq!(law.relative(1e-8), einstein::relative(1e-8), max_relative = 1e-14);
+        assert_relative_eq!(law.relative(1e-8), Einstein.relative(1e-8), max_relative = 1e-14);
         assert_relative_eq!(law.relative(0.585 / 2.0), 1.0 + 2.5 * 0.585, max_relative = 1e-14);
         assert!(law.relative(0.585 * (1.0 - 1e-9)) > 1e9);
     }

@@ -1,6 +1,10 @@
 //! The neutral law: `eta_e = eta`. The grains do not change the viscosity.
 
+use schemars::JsonSchema;
+
+use super::RelativeViscosity;
 use crate::closures::{Info, Standing};
+use crate::numerics::dual::Real;
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
@@ -12,8 +16,20 @@ pub static INFO: Info = Info {
     standing: Standing::Validated,
 };
 
-/// `eta_e/eta`, 1 at any solid fraction.
-#[must_use]
-pub fn relative(_phi: f64) -> f64 {
-    1.0
+/// The grains do not change the viscosity.
+#[derive(JsonSchema)]
+pub struct Clear;
+
+impl RelativeViscosity for Clear {
+    fn relative(&self, _: f64) -> f64 {
+        1.0
+    }
+
+    fn fluidity<T: Real>(&self, _: T) -> T {
+        T::constant(1.0)
+    }
+
+    fn phi_max(&self) -> f64 {
+        f64::INFINITY
+    }
 }

@@ -8,7 +8,11 @@
 //! Source: Einstein (1906), Ann. Phys. 19, 289-306, exact to first order in phi. Chauchat & Medale (2010), eq. (8), and
 //! Ouriemi et al. (2009) apply it in the bed, far outside that range, and so do the cases that repeat them.
 
+use schemars::JsonSchema;
+
+use super::RelativeViscosity;
 use crate::closures::{Info, Range, Standing};
+use crate::numerics::dual::Real;
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
@@ -20,10 +24,22 @@ pub static INFO: Info = Info {
     standing: Standing::Validated,
 };
 
-/// `eta_e/eta` at the solid fraction `phi`.
-#[must_use]
-pub fn relative(phi: f64) -> f64 {
-    1.0 + 2.5 * phi
+/// Einstein's dilute viscosity, which the papers use in dense beds too.
+#[derive(JsonSchema)]
+pub struct Einstein;
+
+impl RelativeViscosity for Einstein {
+    fn relative(&self, phi: f64) -> f64 {
+        1.0 + 2.5 * phi
+    }
+
+    fn fluidity<T: Real>(&self, phi: T) -> T {
+        T::constant(1.0) / (phi * 2.5 + 1.0)
+    }
+
+    fn phi_max(&self) -> f64 {
+        f64::INFINITY
+    }
 }
 
 #[cfg(test)]
@@ -33,7 +49,7 @@ mod tests {
 
     #[test]
     fn clear_fluid_and_slope() {
-        assert_eq!(relative(0.0), 1.0);
-        assert_relative_eq!((relative(1e-3) - relative(0.0)) / 1e-3, 2.5, max_relative = 1e-10);
+        assert_eq!(Einstein.relative(0.0), 1.0);
+        assert_relative_eq!((Einstein.relative(1e-3) - Einstein.relative(0.0)) / 1e-3, 2.5, max_relative = 1e-10);
     }
 }

@@ -13,42 +13,28 @@
 //! Source: Courrech du Pont et al. (2003), Phys. Rev. Lett. 90, 044301; Cassar, Nicolas & Pouliquen (2005), Phys. Fluids 17,
 //! 103301; Revil-Baudard & Chauchat (2013), sec. 2.1.3.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::drag::dallavalle;
-use super::{Info, Standing};
+use super::role::role;
 use crate::numerics::dual::Real;
 
-/// Catalogue entry.
-pub static THREE: Info = Info {
-    family: "rearrangement",
-    law: "largest",
-    equation: "t = max(d (ρ_p/P_p)^½, η/P_p, d (ρ_f C/P_p)^½)",
-    source: "Cassar, Nicolas & Pouliquen (2005); Revil-Baudard & Chauchat (2013), sec. 2.1.3",
-    ranges: &[],
-    standing: Standing::Validated,
-};
+role! {
+    /// Which times count.
+    #[derive(Default)]
+    pub enum Rearrangement {
+        #[default]
+        largest::Largest,
+        free_fall::FreeFall,
+    }
 
-/// Catalogue entry.
-pub static FREE_FALL: Info = Info {
-    family: "rearrangement",
-    law: "free-fall",
-    equation: "t = d (ρ_p/P_p)^½",
-    source: "GDR MiDi (2004), Eur. Phys. J. E 14, 341-365",
-    ranges: &[],
-    standing: Standing::Validated,
-};
-
-/// Which times count.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum Rearrangement {
-    /// The largest of the free-fall, viscous and turbulent times.
-    #[default]
-    Largest,
-    /// The free-fall time alone, as in dry grains.
-    FreeFall,
+    /// What the laws of the rearrangement time answer.
+    pub trait Clock {
+        /// The inverse of the time that counts [1/s], under the pressure `p` [Pa] at the slip `w` [m/s].
+        #[must_use]
+        fn rate<T: Real>(&self, grain: &Grain, p: T, w: T) -> T;
+        /// Which time counts there.
+        #[must_use]
+        fn regime(&self, grain: &Grain, p: f64, w: f64) -> Regime;
+    }
 }
 
 /// Which time is the largest.
@@ -82,41 +68,6 @@ impl Grain {
         let inverse = dallavalle::inverse_number(w, (self.rho_f, self.eta), self.d);
         let turbulent = (p * inverse / self.rho_f).sqrt() / self.d;
         [(p / self.rho_p).sqrt() / self.d, p / self.eta, turbulent]
-    }
-}
-
-impl Rearrangement {
-    /// The inverse of the time that counts [1/s], under the pressure `p` \[Pa] at the slip `w` [m/s].
-    #[must_use]
-    pub fn rate<T: Real>(&self, grain: &Grain, p: T, w: T) -> T {
-        match self {
-            Self::FreeFall => (p / grain.rho_p).sqrt() / grain.d,
-            Self::Largest => {
-                let [free, viscous, turbulent] = grain.rates(p, w);
-                free.min(viscous).min(turbulent)
-            }
-        }
-    }
-
-    /// Which time counts there.
-    #[must_use]
-    pub fn regime(&self, grain: &Grain, p: f64, w: f64) -> Regime {
-        let [free, viscous, turbulent] = grain.rates(p, w);
-        match self {
-            Self::FreeFall => Regime::FreeFall,
-            Self::Largest if free <= viscous && free <= turbulent => Regime::FreeFall,
-            Self::Largest if viscous <= turbulent => Regime::Viscous,
-            Self::Largest => Regime::Turbulent,
-        }
-    }
-
-    /// Catalogue entry of the law.
-    #[must_use]
-    pub fn info(&self) -> &'static Info {
-        match self {
-            Self::Largest => &THREE,
-            Self::FreeFall => &FREE_FALL,
-        }
     }
 }
 

@@ -7,7 +7,9 @@
 //!
 //! The laminar branch (`tau_w = 6 eta u/W`) begins at Re = 812. Source: Blasius (1913), for pipes, Re 3e3 to 1e5.
 
-use super::Friction;
+use schemars::JsonSchema;
+
+use super::{Friction, WallFriction};
 use crate::closures::{Info, Range, Standing};
 
 /// Catalogue entry.
@@ -20,16 +22,21 @@ pub static INFO: Info = Info {
     standing: Standing::Validated,
 };
 
+/// Blasius' law, and laminar flow where that is more.
+#[derive(JsonSchema)]
+pub struct Blasius;
+
 /// `f Re` of laminar flow between plates at the distance W.
 const LAMINAR: f64 = 48.0;
 
-/// The friction at the Reynolds number `re`.
-pub(super) fn friction(re: f64) -> Friction {
-    let turbulent = 0.3164 * re / re.sqrt().sqrt();
-    // Not a number at rest: not (turbulent > 48) catches it.
-    if turbulent > LAMINAR {
-        Friction { times_reynolds: turbulent, slope: -0.25 }
-    } else {
-        Friction { times_reynolds: LAMINAR, slope: -1.0 }
+impl WallFriction for Blasius {
+    fn friction(&self, re: f64) -> Friction {
+        let turbulent = 0.3164 * re / re.sqrt().sqrt();
+        // Not a number at rest: not (turbulent > 48) catches it.
+        if turbulent > LAMINAR {
+            Friction { times_reynolds: turbulent, slope: -0.25 }
+        } else {
+            Friction { times_reynolds: LAMINAR, slope: -1.0 }
+        }
     }
 }

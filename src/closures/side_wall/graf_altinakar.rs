@@ -11,7 +11,9 @@
 
 use std::f64::consts::LOG10_E;
 
-use super::{Friction, implicit::Implicit};
+use schemars::JsonSchema;
+
+use super::{Friction, WallFriction, implicit::Implicit};
 use crate::closures::{Info, Range, Standing};
 
 /// Catalogue entry.
@@ -24,9 +26,14 @@ pub static INFO: Info = Info {
     standing: Standing::Experimental,
 };
 
+/// The textbook: decimal logarithm, Re/4.
+#[derive(JsonSchema)]
+pub struct GrafAltinakar;
+
 const LAW: Implicit = Implicit { a: 2.0 * LOG10_E, scale: 4.0, c: 0.32 };
 
-/// The friction at the Reynolds number `re`.
-pub(super) fn friction(re: f64) -> Friction {
-    LAW.friction(re)
+impl WallFriction for GrafAltinakar {
+    fn friction(&self, re: f64) -> Friction {
+        LAW.friction(re)
+    }
 }

@@ -11,7 +11,9 @@
 //!
 //! Source: implementation of Maurin et al. (2015), after Graf & Altinakar (1998), Fluvial Hydraulics.
 
-use super::{Friction, implicit::Implicit};
+use schemars::JsonSchema;
+
+use super::{Friction, WallFriction, implicit::Implicit};
 use crate::closures::{Info, Range, Standing};
 
 /// Catalogue entry.
@@ -24,9 +26,14 @@ pub static INFO: Info = Info {
     standing: Standing::Experimental,
 };
 
+/// As the published implementation of the coupled model: natural logarithm, Re = U W/nu.
+#[derive(JsonSchema)]
+pub struct GrafAltinakarPublished;
+
 const LAW: Implicit = Implicit { a: 2.0, scale: 1.0, c: 0.32 };
 
-/// The friction at the Reynolds number `re`.
-pub(super) fn friction(re: f64) -> Friction {
-    LAW.friction(re)
+impl WallFriction for GrafAltinakarPublished {
+    fn friction(&self, re: f64) -> Friction {
+        LAW.friction(re)
+    }
 }

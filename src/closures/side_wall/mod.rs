@@ -3,30 +3,26 @@
 //!
 //! Source: the side-wall method of Einstein (1942), as Maurin et al. (2015) apply it at each level.
 
-pub mod blasius;
-pub mod graf_altinakar;
-pub mod graf_altinakar_published;
 mod implicit;
-pub mod none;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use super::role::role;
 
-use super::Info;
+role! {
+    /// Law of the friction factor of the side walls.
+    #[derive(Default, Eq)]
+    pub enum SideWall {
+        #[default]
+        none::None,
+        graf_altinakar_published::GrafAltinakarPublished,
+        graf_altinakar::GrafAltinakar,
+        blasius::Blasius,
+    }
 
-/// Law of the friction factor of the side walls.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum SideWall {
-    /// No side walls.
-    #[default]
-    None,
-    /// As the published implementation of the coupled model: natural logarithm, Re = U W/nu.
-    GrafAltinakarPublished,
-    /// The textbook: decimal logarithm, Re/4.
-    GrafAltinakar,
-    /// Blasius' law, and laminar flow where that is more.
-    Blasius,
+    /// What the laws of the side walls answer.
+    trait WallFriction {
+        /// The friction at the Reynolds number `re`.
+        fn friction(&self, re: f64) -> Friction;
+    }
 }
 
 /// What the laws return: finite at rest, where f is not.
@@ -48,15 +44,6 @@ pub struct WallStress {
 }
 
 impl SideWall {
-    fn friction(self, re: f64) -> Friction {
-        match self {
-            Self::None => Friction { times_reynolds: 0.0, slope: 0.0 },
-            Self::GrafAltinakarPublished => graf_altinakar_published::friction(re),
-            Self::GrafAltinakar => graf_altinakar::friction(re),
-            Self::Blasius => blasius::friction(re),
-        }
-    }
-
     /// Darcy friction factor f at `re` = |u| W/nu; infinite at rest.
     #[must_use]
     pub fn friction_factor(self, re: f64) -> f64 {
@@ -76,17 +63,6 @@ impl SideWall {
         // f |u|/8 = f Re nu/(8 W)
         let rate = times_reynolds * nu / (8.0 * width);
         WallStress { value: rate * u, derivative: rate * (2.0 + slope) }
-    }
-
-    /// Catalogue entry of the law.
-    #[must_use]
-    pub fn info(self) -> &'static Info {
-        match self {
-            Self::None => &none::INFO,
-            Self::GrafAltinakarPublished => &graf_altinakar_published::INFO,
-            Self::GrafAltinakar => &graf_altinakar::INFO,
-            Self::Blasius => &blasius::INFO,
-        }
     }
 }
 

@@ -1,5 +1,8 @@
 //! The neutral law: the flow is as wide as wide can be.
 
+use schemars::JsonSchema;
+
+use super::{Friction, WallFriction};
 use crate::closures::{Info, Standing};
 
 /// Catalogue entry.
@@ -11,3 +14,13 @@ pub static INFO: Info = Info {
     ranges: &[],
     standing: Standing::Validated,
 };
+
+/// No side walls.
+#[derive(JsonSchema)]
+pub struct None;
+
+impl WallFriction for None {
+    fn friction(&self, _: f64) -> Friction {
+        Friction { times_reynolds: 0.0, slope: 0.0 }
+    }
+}

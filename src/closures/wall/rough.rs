@@ -25,7 +25,7 @@ pub static INFO: Info = Info {
     standing: Standing::Validated,
 };
 
-/// Fully rough wall: the viscosity does not matter.
+/// Fully rough: the viscosity does not matter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Rough {
     /// Equivalent sand roughness k_s.

@@ -3,16 +3,32 @@
 mod solve;
 mod study;
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use solve::{equations, run};
 
-use crate::case::tables::{BinghamFluid, BinghamKindModel, PlaneFlow, RegularisationTable, YieldGrid};
+use crate::case::tables::{BinghamFluid, only};
 use crate::closures::regularisation::Regularisation;
 use crate::model::{ClosedForm, Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
-use crate::models::exact::bingham::{BinghamPlane, plane};
-use crate::models::yielding::size;
+use crate::models::exact::bingham::{BinghamPlane, PlaneFlow, plane};
+use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
+pub use solve::{Solution, equations, run};
+
+/// The model: a Bingham fluid between two planes, solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BinghamKindModel {
+    /// What kind of model: plane flow of a Bingham fluid.
+    pub kind: BinghamKind,
+}
+
+only!(
+    /// Plane flow of a Bingham fluid, solved numerically.
+    BinghamKind,
+    Bingham
+);
 
 tables! {
     /// Bingham fluid between two planes: regularised, or with the exact yield.

@@ -1,18 +1,19 @@
 //! The tables that only a coupled flow of grains and fluid has.
 
-use crate::case::tables::{Fluid, Grains};
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::case::tables::SlopeDefinition;
-use crate::closures::contact::Contact;
-use crate::closures::drag::GrainDrag;
+use crate::case::tables::{Fluid, Grains};
+use crate::closures::contact::LinearSpring;
+use crate::closures::drag::DallavalleGrain;
 use crate::closures::fluctuation::Fluctuation;
 use crate::closures::mixing_length::MixingLength;
 use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::role::Only;
 use crate::closures::side_wall::SideWall;
 use crate::dem::{Bottom, Discrete};
+use crate::tables;
 
 /// A bed of grains that is let fall into place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -88,9 +89,9 @@ pub enum CoupledKind {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CoupledClosures {
     /// Contact of two grains, or of a grain with a wall.
-    pub contact: Contact,
+    pub contact: Only<LinearSpring>,
     /// Drag on single grains.
-    pub drag: GrainDrag,
+    pub drag: Only<DallavalleGrain>,
     /// Mixing length of the turbulence.
     pub mixing_length: MixingLength,
     /// Effective viscosity of the mixture.

@@ -3,11 +3,12 @@
 use super::case::{CoupledDiscrete, CoupledTables, FluidScheme};
 use super::{advice, equations, figures, run, study};
 use crate::case::Fault;
-use crate::closures::contact::{Contact, linear_spring};
-use crate::closures::drag::{DallavalleGrain, GrainDrag, dallavalle_grain};
+use crate::closures::contact::linear_spring;
+use crate::closures::drag::{DallavalleGrain, dallavalle_grain};
 use crate::closures::fluctuation::Fluctuation;
 use crate::closures::mixing_length::MixingLength;
 use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::role::Only;
 use crate::closures::side_wall::{self, SideWall};
 use crate::dem::drive::accepts;
 use crate::dem::{Bottom, GrainBed};
@@ -117,12 +118,15 @@ impl Model for Coupled {
         let CoupledDiscrete { coupling_period, sample_period, duration, .. } = *discrete;
         room("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
         if closures.side_wall != SideWall::None && !flow.side_walls {
-            let (law, allowed) = (closures.side_wall.info().law, vec![side_wall::none::INFO.law]);
-            let model = format!("{} without side walls", Self::INFO.name);
-            faults.push(("closures.side_wall.law", Fault::LawMismatch { family: "side_wall", law, model, allowed }));
+            let fault = Fault::LawMismatch {
+                family: "side_wall".into(),
+                law: closures.side_wall.info().law.into(),
+                model: format!("{} without side walls", Self::INFO.name),
+                allowed: vec![side_wall::none::INFO.law.into()],
+            };
+            faults.push(("closures.side_wall.law", fault));
         }
-        let Contact::LinearSpring(contact) = closures.contact;
-        let GrainDrag::DallavalleGrain(drag) = closures.drag;
+        let (Only(contact), Only(drag)) = (closures.contact, closures.drag);
         let mobile = if (1.0..=MOST_GRAINS).contains(&count) { count.round() as usize } else { 1 };
         Some(Self {
             bed: GrainBed {

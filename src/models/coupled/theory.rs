@@ -11,7 +11,8 @@
 //! Source: Chassagne et al. (2023), eq. (2.16), (2.27)-(2.30), (3.1) and figures 4 to 7.
 
 use super::Coupled;
-use crate::closures::kinetic::radial::PHI_MAX;
+use crate::closures::kinetic::drag_work::Damping;
+use crate::closures::kinetic::radial::{AtContact, PHI_MAX};
 use crate::closures::kinetic::{FrictionalCollisional, GarzoDufty, Kinetic};
 use crate::result::{Profile, Quantity, TableError, quantity as q};
 

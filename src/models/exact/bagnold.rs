@@ -14,7 +14,7 @@
 
 pub use super::bagnold_case::GranularFilm;
 use super::{Column, balance, closure_name, outcome, outside, tabulate};
-use crate::closures::friction::mu_i;
+use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE, mu_i};
 use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
 use crate::result::{Failure, Outcome, Results, SolveError, Validity, Watch, quantity as q};
@@ -117,7 +117,7 @@ fn results(film: &GranularFilm, solution: &Solution) -> Results {
 
 fn validity(film: &GranularFilm, solution: &Solution) -> Vec<Validity> {
     let (name, i) = (closure_name(&mu_i::INFO), solution.inertial_number);
-    let far = outside(name.clone(), &mu_i::INERTIAL_RANGE, i);
+    let far = outside(name.clone(), &INERTIAL_RANGE, i);
     let ill = i > 0.0 && film.friction.well_posedness(i) > 0.0;
     let interval =
         film.friction.well_posed().map(|(low, high)| format!("{} to {}", significant(low, 3), significant(high, 3)));
@@ -135,7 +135,7 @@ pub fn equations(film: &GranularFilm) -> String {
         "Dry grains down a slope, film thickness H = {h} m, d = {d} m, φ = {phi}.\n\n\
          pressure     P_p = φ ρ_p g cos β (H - z),  ρ_p = {rho} kg/m³\n\
          momentum     τ_p = P_p tan β,  tan β = {tangent}\n\
-         friction     μ(I) = μ_s + (μ_2 - μ_s)/(I_0/I + 1),  μ_s = {mu_s}, μ_2 = {mu_2}, I_0 = {i_0}\n\
+         friction     {law},  μ_s = {mu_s}, μ_2 = {mu_2}, I_0 = {i_0}\n\
          inertia      I = d u' sqrt(ρ_p/P_p) = I_0/((μ_2 - μ_s)/(tan β - μ_s) - 1), the same at every depth\n\
          velocity     u = (2/3) (I/d) sqrt(φ g cos β) (H^1.5 - (H - z)^1.5)\n\
          rest         for tan β <= μ_s; no steady flow for tan β >= μ_2\n",
@@ -147,6 +147,7 @@ pub fn equations(film: &GranularFilm) -> String {
         mu_s = n(law.mu_s),
         mu_2 = n(law.mu_2),
         i_0 = n(law.i_0),
+        law = mu_i::INFO.equation,
     )
 }
 

@@ -1,13 +1,65 @@
 //! The case of the granular film.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::ExactKind;
 use super::bagnold::{equations, run};
 use crate::case::Fault;
-use crate::case::tables::{BagnoldModel, Film, FilmClosures, FilmFlow, Grains, Grid};
-use crate::closures::friction::{self, Friction, MuI};
+use crate::case::tables::{Grains, Grid, SlopeDefinition, only};
+use crate::closures::friction::{self, MuI};
+use crate::closures::role::Only;
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
+
+/// A film of grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Film {
+    /// Solid fraction of the film, the same at every depth.
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
+    pub phi: f64,
+}
+
+/// A film that flows down a slope under its own weight.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FilmFlow {
+    /// Thickness H of the film, normal to the slope.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Drive: the slope, as slope_definition says, or an angle.
+    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
+    pub slope: f64,
+    /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
+    pub slope_definition: SlopeDefinition,
+    /// Acceleration of gravity.
+    #[serde(default = "crate::case::tables::standard_gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+}
+
+/// The model: Bagnold's granular film in closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BagnoldModel {
+    /// What kind of model: this one is a closed form.
+    pub kind: ExactKind,
+    /// Dry grains down a slope.
+    pub solution: BagnoldSolution,
+}
+
+only!(
+    /// Dry grains down a slope.
+    BagnoldSolution,
+    BagnoldFilm
+);
+
+/// Laws of the granular film.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct FilmClosures {
+    /// Friction of the grains.
+    pub friction: Only<MuI>,
+}
 
 tables! {
     /// Dry grains down a slope, in closed form.
@@ -55,16 +107,7 @@ impl Model for OnMesh<GranularFilm> {
         let BagnoldFilmTables { grains, bed, flow, closures, grid, .. } = tables;
         let slope = flow.slope_definition.angle(flow.slope);
         let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
-        let friction = match closures.friction {
-            Friction::MuI(law) => law,
-            other => {
-                let allowed = vec![friction::mu_i::INFO.law];
-                let fault =
-                    Fault::LawMismatch { family: "friction", law: other.law(), model: Self::INFO.name.into(), allowed };
-                faults.push(("closures.friction.law", fault));
-                return None;
-            }
-        };
+        let friction = closures.friction.0;
         if friction.mu_2 <= friction.mu_s {
             faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: friction.mu_s, mu_2: friction.mu_2 }));
         }

@@ -1,13 +1,104 @@
 //! A laminar flow between two planes over a bed of grains, as its closed form, its solver and its cross-section take it.
 
+use schemars::{JsonSchema, Schema};
+use serde::{Deserialize, Serialize};
+
 use crate::case::Fault;
-use crate::case::tables::{Bed, BedClosures, Fluid, Form, Grains, LaminarFlow};
+use crate::case::tables::{Bed, Fluid, Grains, one_of};
 use crate::closures::Info;
-use crate::closures::dilatancy::{self, Dilatancy, PhiIv};
-use crate::closures::drag::{self, CarmanKozeny, Drag};
-use crate::closures::friction::{self, Coulomb, Friction, MuIv};
-use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::dilatancy::{self, PhiIv};
+use crate::closures::drag::{self, CarmanKozeny};
+use crate::closures::friction::{self, Coulomb, MuIv};
+use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
+use crate::closures::role::{Only, choice};
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
+
+/// A flow between two planes over a bed. Exactly one drive.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(transform = laminar_drives)]
+pub struct LaminarFlow {
+    /// Flow height H: distance between the lower and the upper wall, bed included.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Drive: fall of pressure along the flow, -dp/dx.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
+    pub pressure_gradient: Option<f64>,
+    /// Drive: wanted Shields number; the pressure gradient that gives it is solved for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub shields: Option<f64>,
+    /// Acceleration of gravity.
+    #[serde(default = "crate::case::tables::standard_gravity")]
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    pub gravity: f64,
+}
+
+fn laminar_drives(schema: &mut Schema) {
+    one_of(schema, &["pressure_gradient", "shields"]);
+}
+
+/// One velocity for fluid and grains, or two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Form {
+    /// Fluid and grains share one velocity.
+    Mixed,
+    /// Two velocities, coupled by the drag: a flow through the static bed, a slip in the mobile one, a threshold of motion.
+    TwoFluid,
+}
+
+/// Laws of the laminar bed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BedClosures {
+    /// Friction of the grains.
+    pub friction: Only<Coulomb>,
+    /// Effective viscosity of the mixture.
+    pub mixture_viscosity: MixtureViscosity,
+    /// Drag between the phases; only the two-fluid form has it.
+    #[serde(default)]
+    pub drag: BedDrag,
+    /// Solid fraction of sheared grains; only with friction by mu(I_v).
+    #[serde(default)]
+    pub dilatancy: BedPacking,
+}
+
+choice! {
+    /// Drag between the phases of a laminar bed.
+    #[derive(Default)]
+    pub enum BedDrag from drag {
+        #[default]
+        none::None,
+        carman_kozeny::CarmanKozeny(..),
+    }
+}
+
+choice! {
+    /// Solid fraction of a bed that does not spread.
+    #[derive(Default)]
+    pub enum BedPacking from dilatancy {
+        #[default]
+        none::None,
+    }
+}
+
+/// The laws of a laminar bed, whatever its model chooses them from.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::models) struct BedLaws {
+    pub friction: Coulomb,
+    /// what the friction exceeds `mu_s` by where the grains shear
+    pub rise: Option<MuIv>,
+    pub viscosity: MixtureViscosity,
+    pub drag: BedDrag,
+    pub dilatancy: Option<PhiIv>,
+}
+
+impl From<&BedClosures> for BedLaws {
+    fn from(closures: &BedClosures) -> Self {
+        let BedClosures { friction, mixture_viscosity, drag, .. } = *closures;
+        Self { friction: friction.0, rise: None, viscosity: mixture_viscosity, drag, dilatancy: None }
+    }
+}
 
 /// What drives the flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -130,16 +221,15 @@ impl LaminarBed {
 }
 
 /// The tables of a laminar bed.
-pub(in crate::models) type Tables<'a> = (&'a Fluid, &'a Grains, &'a Bed, &'a LaminarFlow, &'a BedClosures);
+pub(in crate::models) type Tables<'a> = (&'a Fluid, &'a Grains, &'a Bed, &'a LaminarFlow, BedLaws);
 
 pub(in crate::models) fn laminar_bed(
     tables: Tables<'_>,
     form: Form,
     model: &str,
-    laws: &[&'static str],
     faults: &mut Faults,
 ) -> Option<LaminarBed> {
-    let (fluid, grains, bed, flow, closures) = tables;
+    let (fluid, grains, bed, flow, laws) = tables;
     if bed.level >= flow.height {
         faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
     }
@@ -149,61 +239,41 @@ pub(in crate::models) fn laminar_bed(
     if grains.density <= fluid.density {
         faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
     }
-    if let MixtureViscosity::Boyer(law) = closures.mixture_viscosity
-        && bed.phi >= law.phi_max
-    {
-        faults.push(("bed.phi", Fault::Jammed { phi: bed.phi, phi_max: law.phi_max }));
+    let phi_max = laws.viscosity.phi_max();
+    if bed.phi >= phi_max {
+        faults.push(("bed.phi", Fault::Jammed { phi: bed.phi, phi_max }));
     }
-    let mismatch = |family, law, model: String, allowed| Fault::LawMismatch { family, law, model, allowed };
-    let (friction, rise) = match closures.friction {
-        Friction::Coulomb(law) if laws.contains(&friction::coulomb::INFO.law) => (Some(law), None),
-        Friction::MuIv(law) if laws.contains(&friction::mu_iv::INFO.law) => {
-            if law.mu_2 <= law.mu_s {
-                faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: law.mu_s, mu_2: law.mu_2 }));
-            }
-            (Some(Coulomb { mu_s: law.mu_s }), Some(law))
-        }
-        other => {
-            faults.push(("closures.friction.law", mismatch("friction", other.law(), model.into(), laws.to_vec())));
-            (None, None)
-        }
+    if let Some(MuIv { mu_s, mu_2, .. }) = laws.rise
+        && mu_2 <= mu_s
+    {
+        faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s, mu_2 }));
+    }
+    let mismatch = |family: &str, law: &str, model, allowed: &[&Info]| Fault::LawMismatch {
+        family: family.into(),
+        law: law.into(),
+        model,
+        allowed: allowed.iter().map(|info| info.law.to_owned()).collect(),
     };
-    let drag = match (form, closures.drag) {
-        (Form::Mixed, Drag::None) => None,
-        (Form::TwoFluid, Drag::CarmanKozeny(law)) => Some(law),
-        (Form::Mixed, law) => {
-            let fault =
-                mismatch("drag", law.info().law, format!("{model} in the mixed form"), vec![drag::none::INFO.law]);
-            faults.push(("closures.drag.law", fault));
-            None
-        }
-        (Form::TwoFluid, law) => {
-            let allowed = vec![drag::carman_kozeny::INFO.law];
-            let fault = mismatch("drag", law.info().law, format!("{model} in the two-fluid form"), allowed);
-            faults.push(("closures.drag.law", fault));
-            None
-        }
+    let (form_name, other, drag) = match (form, laws.drag) {
+        (Form::Mixed, BedDrag::None) => ("mixed", None, None),
+        (Form::TwoFluid, BedDrag::CarmanKozeny(law)) => ("two-fluid", None, Some(law)),
+        (Form::Mixed, BedDrag::CarmanKozeny(_)) => ("mixed", Some(&drag::none::INFO), None),
+        (Form::TwoFluid, BedDrag::None) => ("two-fluid", Some(&drag::carman_kozeny::INFO), None),
     };
-    let dilatancy = match closures.dilatancy {
-        Dilatancy::None => None,
-        Dilatancy::PhiIv(law) if rise.is_some() => Some(law),
-        Dilatancy::PhiI(_) => {
-            let allowed = vec![dilatancy::none::INFO.law, dilatancy::phi_iv::INFO.law];
-            let fault = mismatch("dilatancy", dilatancy::phi_i::INFO.law, model.into(), allowed);
-            faults.push(("closures.dilatancy.law", fault));
-            None
-        }
-        Dilatancy::PhiIv(_) => {
-            let model = format!("{model} unless the friction is {}", friction::mu_iv::INFO.law);
-            let allowed = vec![dilatancy::none::INFO.law];
-            faults.push(("closures.dilatancy.law", mismatch("dilatancy", dilatancy::phi_iv::INFO.law, model, allowed)));
-            None
-        }
-    };
+    if let Some(other) = other {
+        let fault = mismatch("drag", laws.drag.info().law, format!("{model} in the {form_name} form"), &[other]);
+        faults.push(("closures.drag.law", fault));
+    }
+    let dilatancy = laws.dilatancy.filter(|_| laws.rise.is_some());
+    if laws.dilatancy.is_some() && dilatancy.is_none() {
+        let model = format!("{model} unless the friction is {}", friction::mu_iv::INFO.law);
+        let fault = mismatch("dilatancy", dilatancy::phi_iv::INFO.law, model, &[&dilatancy::none::INFO]);
+        faults.push(("closures.dilatancy.law", fault));
+    }
     if dilatancy.is_some() && drag.is_some_and(|law: CarmanKozeny| law.phi_min == 0.0) {
         let model = format!("{model} with closures.dilatancy, unless closures.drag.phi_min is more than 0");
-        let law = drag::carman_kozeny::INFO.law;
-        faults.push(("closures.drag.law", mismatch("drag", law, model, vec![law])));
+        let law = &drag::carman_kozeny::INFO;
+        faults.push(("closures.drag.law", mismatch("drag", law.law, model, &[law])));
     }
     let drive = match (flow.pressure_gradient, flow.shields) {
         (Some(gradient), _) => Drive::PressureGradient(gradient),
@@ -220,9 +290,9 @@ pub(in crate::models) fn laminar_bed(
         h: flow.height,
         g: flow.gravity,
         drive,
-        friction: friction?,
-        rise,
-        viscosity: closures.mixture_viscosity,
+        friction: laws.friction,
+        rise: laws.rise,
+        viscosity: laws.viscosity,
         drag,
         dilatancy,
     })

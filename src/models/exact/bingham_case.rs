@@ -1,11 +1,51 @@
 //! The case of the Bingham fluid between two planes, and the problem that its closed form and its solver share.
 
+use schemars::{JsonSchema, Schema};
+use serde::{Deserialize, Serialize};
+
+use super::ExactKind;
 use super::bingham::{equations, run};
-use crate::case::tables::{BinghamFluid, BinghamModel, Grid, PlaneFlow};
+use crate::case::tables::{BinghamFluid, Grid, one_of, only};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
+
+/// A flow between two planes. Exactly one drive.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(transform = plane_drives)]
+pub struct PlaneFlow {
+    /// Flow height H: distance between the two planes.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Drive: fall of pressure along the flow, -dp/dx.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
+    pub pressure_gradient: Option<f64>,
+    /// Drive: wanted mean velocity; the pressure gradient that gives it is solved for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
+    pub mean_velocity: Option<f64>,
+}
+
+fn plane_drives(schema: &mut Schema) {
+    one_of(schema, &["pressure_gradient", "mean_velocity"]);
+}
+
+/// The model: Bingham plane Poiseuille flow in closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct BinghamModel {
+    /// What kind of model: this one is a closed form.
+    pub kind: ExactKind,
+    /// Bingham fluid between two planes.
+    pub solution: BinghamSolution,
+}
+
+only!(
+    /// Bingham fluid between two planes.
+    BinghamSolution,
+    BinghamPlane
+);
 
 tables! {
     /// Bingham fluid between two planes, in closed form.

@@ -6,6 +6,7 @@
 
 pub use super::log_law_case::RoughWall;
 use super::{Column, balance, closure_name, outcome, outside, tabulate};
+use crate::closures::mixing_length::Length;
 use crate::closures::wall::rough;
 use crate::numerics::quadrature::simpson;
 use crate::result::{Failure, Outcome, Results, Watch, quantity as q};
@@ -57,7 +58,7 @@ pub fn run(wall: &RoughWall, cells: usize, watch: &mut dyn Watch) -> Result<Outc
         .map(|i| if i == cells { wall.h } else { solution.z_0 * (span * i as f64 / cells as f64).exp() })
         .collect();
     let tau = wall.rho_f * wall.u_star * wall.u_star;
-    let length = |z: f64| wall.mixing_length.length(z);
+    let length = |z: f64| wall.mixing_length.length(z, 0.0);
     let columns: Vec<Column<'_>> = vec![
         (&q::U_FLUID, Box::new(|z| Some(solution.velocity(z)))),
         (&q::TAU_REYNOLDS, Box::new(move |_| Some(tau))),
@@ -134,7 +135,7 @@ mod tests {
     fn velocity_by_integrating_the_stress() {
         // u' = u_*/l_m, from the stress and the mixing length alone.
         let solution = Solution::new(&WALL);
-        let slope = |z: f64| WALL.u_star / WALL.mixing_length.length(z);
+        let slope = |z: f64| WALL.u_star / WALL.mixing_length.length(z, 0.0);
         for z in [1e-3, 1e-2, 0.1] {
             let u = simpson(|x| x.exp() * slope(x.exp()), solution.z_0.ln(), f64::ln(z), 10);
             assert_relative_eq!(u, solution.velocity(z), max_relative = 1e-13);

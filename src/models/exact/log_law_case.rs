@@ -1,10 +1,15 @@
 //! The case of the logarithmic law.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::ExactKind;
 use super::log_law::{equations, run};
 use crate::case::Fault;
-use crate::case::tables::{Fluid, Grid, LogLawModel, WallClosures, WallFlow};
-use crate::closures::mixing_length::{self, MixingLength, Prandtl};
-use crate::closures::wall::{self, Rough, Wall};
+use crate::case::tables::{Fluid, Grid, only};
+use crate::closures::mixing_length::{self, Prandtl};
+use crate::closures::role::Only;
+use crate::closures::wall::{self, Rough};
 use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
@@ -13,6 +18,41 @@ use crate::units::significant;
 
 /// Shields number at which the first grains move: intercept of Q*^(2/3), with eddies (docs/coupled.md).
 const ONSET: f64 = 0.045;
+
+/// A turbulent flow over a wall, driven by the stress at the wall.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WallFlow {
+    /// Flow height H: elevation up to which the profile is given.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
+    pub height: f64,
+    /// Drive: friction velocity sqrt(tau/rho_f).
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub u_star: f64,
+}
+
+/// The model: the logarithmic law.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LogLawModel {
+    /// What kind of model: this one is a closed form.
+    pub kind: ExactKind,
+    /// Turbulent layer of constant stress over a rough wall.
+    pub solution: LogLawSolution,
+}
+
+only!(
+    /// Turbulent layer of constant stress over a rough wall.
+    LogLawSolution,
+    LogLaw
+);
+
+/// Laws of the turbulent layer.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct WallClosures {
+    /// Mixing length.
+    pub mixing_length: Only<Prandtl>,
+    /// Roughness of the wall.
+    pub wall: Only<Rough>,
+}
 
 tables! {
     /// Turbulent layer of constant stress over a rough wall, in closed form.
@@ -54,16 +94,7 @@ impl Model for OnMesh<RoughWall> {
 
     fn build(tables: &LogLawTables, faults: &mut Faults) -> Option<Self> {
         let LogLawTables { fluid, flow, closures, grid, .. } = tables;
-        let mixing_length = match closures.mixing_length {
-            MixingLength::Prandtl(law) => law,
-            other => {
-                let (law, allowed) = (other.info().law, vec![mixing_length::prandtl::INFO.law]);
-                let fault = Fault::LawMismatch { family: "mixing_length", law, model: Self::INFO.name.into(), allowed };
-                faults.push(("closures.mixing_length.law", fault));
-                return None;
-            }
-        };
-        let Wall::Rough(wall) = closures.wall;
+        let (Only(mixing_length), Only(wall)) = (closures.mixing_length, closures.wall);
         if wall.roughness_length() >= flow.height {
             let fault = Fault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
             faults.push(("closures.wall.k_s", fault));

@@ -13,6 +13,7 @@ pub mod ouriemi;
 
 use std::ops::ControlFlow;
 
+use crate::case::tables::only;
 use crate::models::premises::outside;
 use crate::numerics::root::NoRoot;
 use crate::result::{
@@ -20,6 +21,12 @@ use crate::result::{
     quantity,
 };
 use bed_results::closure_name;
+
+only!(
+    /// Closed forms.
+    ExactKind,
+    Exact
+);
 
 /// Levels between two looks at the watch.
 const BETWEEN_LOOKS: usize = 512;

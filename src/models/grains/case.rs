@@ -1,13 +1,14 @@
 //! The tables of cases of single grains, as `tables` has those of the other models.
 
-use crate::case::tables::Grains;
-use crate::dem::{Bottom, Discrete};
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::case::tables::Grains;
 use crate::case::tables::SlopeDefinition;
-use crate::closures::contact::Contact;
+use crate::closures::contact::LinearSpring;
+use crate::closures::role::Only;
+use crate::dem::{Bottom, Discrete};
+use crate::tables;
 
 /// A bed of grains that is let fall into place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -201,7 +202,7 @@ fn steps() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GrainClosures {
     /// Contact of two grains, or of a grain with a wall.
-    pub contact: Contact,
+    pub contact: Only<LinearSpring>,
 }
 
 tables! {

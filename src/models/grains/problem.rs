@@ -3,7 +3,8 @@
 use super::case::{GrainsBedTables, ImpactTables, Target, Trial as Which, TrialTables};
 use super::{bed, impact, trials};
 use crate::case::Fault;
-use crate::closures::contact::{Contact, LinearSpring, linear_spring};
+use crate::closures::contact::{LinearSpring, linear_spring};
+use crate::closures::role::Only;
 use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
 use crate::model::{Description, Faults, Model, ModelInfo, Solve};
@@ -75,7 +76,7 @@ impl Model for GrainBed {
             let name = "the number of mobile grains";
             faults.push(("bed.layers", Fault::GrainRoom { name, value: count, least: 1.0, most: MOST_GRAINS }));
         }
-        let Contact::LinearSpring(contact) = closures.contact;
+        let Only(contact) = closures.contact;
         Some(Self {
             d,
             rho_p: grains.density,
@@ -116,7 +117,7 @@ impl Model for Impact {
     type Tables = ImpactTables;
 
     fn build(tables: &ImpactTables, _: &mut Faults) -> Option<Self> {
-        let Contact::LinearSpring(contact) = tables.closures.contact;
+        let Only(contact) = tables.closures.contact;
         Some(Self {
             d: tables.grains.diameter,
             rho_p: tables.grains.density,
@@ -150,7 +151,7 @@ impl Model for Trial {
     type Tables = TrialTables;
 
     fn build(tables: &TrialTables, _: &mut Faults) -> Option<Self> {
-        let Contact::LinearSpring(contact) = tables.closures.contact;
+        let Only(contact) = tables.closures.contact;
         Some(Self {
             trial: tables.model.trial,
             d: tables.grains.diameter,

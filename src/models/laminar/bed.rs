@@ -7,7 +7,7 @@ use super::{single, spreading};
 use crate::closures::dilatancy::PhiIv;
 use crate::closures::drag::CarmanKozeny;
 use crate::closures::friction::MuIv;
-use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::regularisation::Regularisation;
 use crate::models::exact::ouriemi::Scaled;
 use crate::result::SolveError;

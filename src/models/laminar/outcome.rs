@@ -4,7 +4,8 @@ use serde_json::{Map, Value, json};
 
 use super::bed::{Bed, Dilation, Nodes, Solution};
 use super::mesh::Mesh;
-use crate::closures::regularisation::{Regularisation, Smoothing};
+use crate::closures::mixture_viscosity::RelativeViscosity;
+use crate::closures::regularisation::Regularisation;
 use crate::models::exact::bed::{Drive, LaminarBed};
 use crate::models::exact::bed_results::BedNumbers;
 use crate::models::exact::ouriemi::viscosity_text;
@@ -295,12 +296,7 @@ fn friction_text(bed: &LaminarBed) -> String {
 
 /// The law of the regularisation, with its size.
 pub(in crate::models) fn yield_text(regularisation: &Regularisation, unit: f64) -> String {
-    let law = match regularisation.law {
-        Smoothing::None => return "exact: R = γ/|γ|, rigid below".into(),
-        Smoothing::Simple => "R = γ/(|γ| + λ)",
-        Smoothing::BercovierEngelman => "R = γ/sqrt(γ² + λ²)",
-        Smoothing::Papanastasiou => "R = sign(γ) (1 - exp(-|γ|/λ))",
-    };
+    let Some(law) = regularisation.law.equation() else { return "exact: R = γ/|γ|, rigid below".into() };
     let lambda = regularisation.lambda;
-    format!("{law},  λ = {} ({} 1/s)", significant(lambda, 3), significant(lambda * unit, 3))
+    format!("R = {law},  λ = {} ({} 1/s)", significant(lambda, 3), significant(lambda * unit, 3))
 }

@@ -1,19 +1,86 @@
 //! The laminar bed that is solved numerically: its case and its problem.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::{equations, run, study};
-use crate::case::tables::{Bed, BedClosures, Fluid, Grains, LaminarFlow, LaminarModel, RegularisationTable, YieldGrid};
-use crate::closures::friction;
+use crate::case::tables::{Bed, Fluid, Grains, only};
+use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::regularisation::Regularisation;
+use crate::closures::role::choice;
+use crate::closures::{dilatancy, friction};
 use crate::model::{
     ClosedForm, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
     Term, TermTest,
 };
-use crate::models::exact::bed::{LaminarBed, laminar_bed};
-use crate::models::yielding::size;
+use crate::models::exact::bed::{BedDrag, BedLaws, Form, LaminarBed, LaminarFlow, laminar_bed};
+use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
 use crate::units::significant;
+
+/// The model: a laminar bed, solved numerically.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LaminarModel {
+    /// What kind of model: a laminar flow over a bed.
+    pub kind: LaminarKind,
+    /// One velocity for fluid and grains, or two.
+    pub form: Form,
+}
+
+only!(
+    /// A laminar flow over a bed, solved numerically.
+    LaminarKind,
+    Laminar
+);
+
+/// Laws of the laminar bed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct LaminarClosures {
+    /// Friction of the grains.
+    pub friction: LaminarFriction,
+    /// Effective viscosity of the mixture.
+    pub mixture_viscosity: MixtureViscosity,
+    /// Drag between the phases; only the two-fluid form has it.
+    #[serde(default)]
+    pub drag: BedDrag,
+    /// Solid fraction of sheared grains; only with friction by mu(I_v).
+    #[serde(default)]
+    pub dilatancy: LaminarDilatancy,
+}
+
+choice! {
+    /// Friction of the grains.
+    pub enum LaminarFriction from friction {
+        coulomb::Coulomb(..),
+        mu_iv::MuIv(..),
+    }
+}
+
+choice! {
+    /// Solid fraction of sheared grains.
+    #[derive(Default)]
+    pub enum LaminarDilatancy from dilatancy {
+        #[default]
+        none::None,
+        phi_iv::PhiIv(..),
+    }
+}
+
+impl From<&LaminarClosures> for BedLaws {
+    fn from(closures: &LaminarClosures) -> Self {
+        let (friction, rise) = match closures.friction {
+            LaminarFriction::Coulomb(law) => (law, None),
+            LaminarFriction::MuIv(law) => (friction::Coulomb { mu_s: law.mu_s }, Some(law)),
+        };
+        let dilatancy = match closures.dilatancy {
+            LaminarDilatancy::None => None,
+            LaminarDilatancy::PhiIv(law) => Some(law),
+        };
+        Self { friction, rise, viscosity: closures.mixture_viscosity, drag: closures.drag, dilatancy }
+    }
+}
 
 tables! {
     /// Laminar flow over a bed of grains between two planes: regularised, or with the exact yield.
@@ -29,7 +96,7 @@ tables! {
         /// The model.
         model: LaminarModel,
         /// Laws.
-        closures: BedClosures,
+        closures: LaminarClosures,
         /// How the yield stress is smoothed.
         #[serde(default)]
         regularisation: RegularisationTable,
@@ -56,8 +123,8 @@ impl Model for OnMesh<RegularisedBed> {
 
     fn build(tables: &LaminarTables, faults: &mut Faults) -> Option<Self> {
         let LaminarTables { fluid, grains, bed, flow, closures, grid, .. } = tables;
-        let laws = [friction::coulomb::INFO.law, friction::mu_iv::INFO.law];
-        let bed = laminar_bed((fluid, grains, bed, flow, closures), tables.model.form, Self::INFO.name, &laws, faults);
+        let parts = (fluid, grains, bed, flow, closures.into());
+        let bed = laminar_bed(parts, tables.model.form, Self::INFO.name, faults);
         let size = size(&tables.regularisation, faults);
         let bed = bed?;
         let lambda = size?.to_scaled(bed.velocity_scale() / bed.h);

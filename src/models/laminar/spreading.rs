@@ -10,6 +10,7 @@ use super::element::{Element, Rise};
 use super::mesh::Mesh;
 use super::packing::Packing;
 use super::single::{self, NotConverged};
+use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::Regularisation;
 use crate::numerics::root::brent;
 

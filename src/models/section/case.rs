@@ -1,11 +1,12 @@
 //! The tables that only flows in two-dimensional sections have.
 
-use crate::case::tables::{Bed, BedClosures, BinghamFluid, Fluid, Grains, RegularisationTable};
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::case::tables::Form;
+use crate::case::tables::{Bed, BinghamFluid, Fluid, Grains, only};
+use crate::models::exact::bed::{BedClosures, Form};
+use crate::models::yielding::RegularisationTable;
+use crate::tables;
 
 /// A duct that a pressure gradient drives a yield-stress fluid through.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -115,18 +116,6 @@ pub enum Method {
     Newton,
     /// Accelerated ascent of the dual with the exact yield: one factorisation, few digits.
     FirstOrder,
-}
-
-macro_rules! only {
-    ($(#[$doc:meta])* $name:ident, $variant:ident) => {
-        $(#[$doc])*
-        #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-        #[serde(rename_all = "kebab-case")]
-        pub enum $name {
-            $(#[$doc])*
-            $variant,
-        }
-    };
 }
 
 only!(

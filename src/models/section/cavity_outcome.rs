@@ -8,7 +8,7 @@ use super::cavity::Cavity;
 use super::newton::{Solved, Stalled};
 use super::outcome::history;
 use super::{dual, newton};
-use crate::closures::regularisation::{Regularisation, Smoothing};
+use crate::closures::regularisation::Regularisation;
 use crate::models::section::{CavityFlow, Method};
 use crate::result::Field;
 use crate::result::{
@@ -221,12 +221,9 @@ fn field(flow: &CavityFlow, cavity: &Cavity, psi: &[f64], stresses: &[f64]) -> F
 #[must_use]
 pub fn equations(flow: &CavityFlow) -> String {
     let n = |x: f64| significant(x, 5);
-    let yielding = match flow.regularisation.law {
-        Smoothing::None => "exact".into(),
-        Smoothing::Simple => format!("Bn γ/(|γ| + λ),  λ = {}", n(flow.regularisation.lambda)),
-        Smoothing::BercovierEngelman => format!("Bn γ/sqrt(γ² + λ²),  λ = {}", n(flow.regularisation.lambda)),
-        Smoothing::Papanastasiou => format!("Bn (1 - exp(-|γ|/λ)),  λ = {}", n(flow.regularisation.lambda)),
-    };
+    let yielding = flow.regularisation.law.equation().map_or("exact".into(), |law| {
+        format!("Bn {},  λ = {}", law.trim_start_matches("sign(γ) "), n(flow.regularisation.lambda))
+    });
     format!(
         "Slow flow of a Bingham fluid in a square cavity under a sliding lid, without inertia.\n\n\
          units      H = {} m,  U = {} m/s (lid),  η U/H = {} Pa\n\

@@ -9,6 +9,7 @@ use super::full::Full;
 use super::newton::{self, Stalled};
 use super::numbers::Numbers;
 use super::solve::Solution;
+use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::models::premises::{self, outside};
 use crate::models::section::{Contents, DuctFlow, Method, Outline};
@@ -349,11 +350,10 @@ pub fn equations(flow: &DuctFlow) -> String {
             }
         }
     };
-    let lambda = n(flow.regularisation.lambda);
-    text + &match flow.regularisation.law {
-        Smoothing::None => "yield      exact\n".into(),
-        Smoothing::Simple => format!("yield      |γ| y replaced so that the stress is y γ/(|γ| + λ),  λ = {lambda}\n"),
-        Smoothing::BercovierEngelman => format!("yield      stress y γ/sqrt(γ² + λ²),  λ = {lambda}\n"),
-        Smoothing::Papanastasiou => format!("yield      stress y (1 - exp(-|γ|/λ)),  λ = {lambda}\n"),
-    }
+    let Regularisation { law, lambda } = flow.regularisation;
+    let lead = if law == Smoothing::Simple { "|γ| y replaced so that the stress is" } else { "stress" };
+    let yielding = law
+        .equation()
+        .map_or("exact".into(), |law| format!("{lead} y {},  λ = {}", law.trim_start_matches("sign(γ) "), n(lambda)));
+    format!("{text}yield      {yielding}\n")
 }

@@ -3,10 +3,9 @@
 use super::case::{CavityTables, DuctBedTables, DuctTables, Method, SectionGrid, SectionSolver, Shape};
 use super::{cavity_equations, equations, run, run_cavity, study};
 use crate::case::Fault;
-use crate::case::tables::LaminarFlow;
-use crate::closures::friction;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
+use crate::models::exact::bed::LaminarFlow;
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
 use crate::models::yielding::size;
 use crate::result::Context;
@@ -224,9 +223,8 @@ impl Model for DuctBed {
             shields: None,
             gravity: flow.gravity,
         };
-        let parts = (fluid, grains, bed, &drive, closures);
-        let laws = [friction::coulomb::INFO.law];
-        let bed = laminar_bed(parts, tables.model.form, Self::INFO.name, &laws, faults);
+        let parts = (fluid, grains, bed, &drive, closures.into());
+        let bed = laminar_bed(parts, tables.model.form, Self::INFO.name, faults);
         let outline = outline(flow.shape, flow.width.map(|width| width / flow.height), faults);
         let solver = solver(tables.model.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
         let size = size(&tables.regularisation, faults);

@@ -1,13 +1,14 @@
 //! The tables that only grains between two moving walls have.
 
-use crate::case::tables::Grid;
-use crate::models::two_fluid::CollidingGrains;
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::closures::kinetic::Granular;
+use crate::case::tables::Grid;
+use crate::closures::kinetic;
 use crate::closures::kinetic::radial::PHI_MAX;
+use crate::closures::role::choice;
+use crate::models::two_fluid::CollidingGrains;
+use crate::tables;
 
 /// The gap between the walls and the grains in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -59,7 +60,15 @@ pub enum ShearCellKind {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ShearCellClosures {
     /// Stresses of grains that collide: a kinetic theory. Without fluid neither saltation nor drag counts.
-    pub granular: Granular,
+    pub granular: Colliding,
+}
+
+choice! {
+    /// Stresses of grains that collide.
+    pub enum Colliding from kinetic {
+        garzo_dufty::GarzoDufty(..),
+        frictional_collisional::FrictionalCollisional(..),
+    }
 }
 
 tables! {

@@ -5,12 +5,14 @@ mod flow;
 mod problem;
 mod study;
 
-pub use problem::ShearCell;
+use flow::{Flow, Node, guess};
 
 use super::exact::{balance, outcome};
+use crate::closures::kinetic::Stresses;
+use crate::closures::kinetic::radial::AtContact;
 use crate::result::{Failure, Outcome, Profile, Results, Snapshot, Watch, quantity as q};
 use crate::units::significant;
-use flow::{Flow, Node, guess};
+pub use problem::ShearCell;
 
 /// Solves the flow on `cells` intervals.
 ///

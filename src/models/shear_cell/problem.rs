@@ -1,10 +1,10 @@
 //! Problems of grains between two walls that move.
 
-use super::case::ShearCellTables;
+use super::case::{Colliding, ShearCellTables};
 use super::{equations, run, study};
 use crate::case::Fault;
 use crate::closures::Info;
-use crate::closures::kinetic::{FRICTIONAL_COLLISIONAL, Granular, Kinetic, garzo_dufty};
+use crate::closures::kinetic::{Granular, Kinetic, Stresses};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
@@ -46,16 +46,10 @@ impl Model for OnMesh<ShearCell> {
             let fault = Fault::ThinnerThanAGrain { level: flow.height, diameter: grains.diameter };
             faults.push(("flow.height", fault));
         }
-        let kinetic = match closures.granular {
-            Granular::GarzoDufty(law) => law.kinetic(grains.restitution, grains.friction),
-            Granular::FrictionalCollisional(law) => law.kinetic(grains.restitution, grains.friction),
-            Granular::MuI(_) => {
-                let (law, allowed) =
-                    (closures.granular.info().law, vec![garzo_dufty::INFO.law, FRICTIONAL_COLLISIONAL.law]);
-                let fault = Fault::LawMismatch { family: "granular", law, model: Self::INFO.name.into(), allowed };
-                faults.push(("closures.granular.law", fault));
-                return None;
-            }
+        let (e, mu_p) = (grains.restitution, grains.friction);
+        let (granular, kinetic) = match closures.granular {
+            Colliding::GarzoDufty(law) => (Granular::GarzoDufty(law), law.kinetic(e, mu_p)),
+            Colliding::FrictionalCollisional(law) => (Granular::FrictionalCollisional(law), law.kinetic(e, mu_p)),
         };
         let problem = ShearCell {
             rho_p: grains.density,
@@ -65,7 +59,7 @@ impl Model for OnMesh<ShearCell> {
             phi_max: flow.phi_max,
             velocity: [flow.velocity_lower, flow.velocity_upper],
             temperature: [flow.temperature_lower, flow.temperature_upper],
-            granular: closures.granular,
+            granular,
             // Nothing but the collisions ends the flight of a grain here.
             kinetic: Kinetic { saltation: None, ..kinetic },
         };

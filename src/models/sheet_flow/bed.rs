@@ -17,6 +17,7 @@
 
 use super::flow::{Cell, Flow, Unknowns};
 use super::mesh::Mesh;
+use crate::closures::friction::FrictionLaw;
 use crate::numerics::dual::Real;
 
 /// Unknowns of a node and the cell below it.
@@ -84,7 +85,7 @@ impl State {
 
 /// The laws in cell `c`.
 #[must_use]
-pub fn cell(flow: &Flow, mesh: &Mesh, state: &State, c: usize) -> Cell<f64> {
+pub fn cell<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, state: &State, c: usize) -> Cell<f64> {
     flow.cell(mesh.middles[c], mesh.size(c), &state.unknowns(c))
 }
 
@@ -108,7 +109,7 @@ fn weight_below(mesh: &Mesh, j: usize) -> f64 {
 }
 
 /// Share of the volume of node `j` that lies below the cut.
-fn below_cut(flow: &Flow, mesh: &Mesh, m: f64, j: usize) -> f64 {
+fn below_cut<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, m: f64, j: usize) -> f64 {
     if j == 0 {
         return 0.0;
     }
@@ -153,15 +154,15 @@ pub struct Weights {
 impl Weights {
     /// Of node `j` of a bed with the solid volume `m`.
     #[must_use]
-    pub fn of(mesh: &Mesh, flow: &Flow, m: f64, j: usize) -> Self {
+    pub fn of<F: FrictionLaw>(mesh: &Mesh, flow: &Flow<F>, m: f64, j: usize) -> Self {
         let own = if j == 0 { FIRST } else { 1.0 };
         Self { own, below: weight_below(mesh, j), under_cut: below_cut(flow, mesh, m, j) }
     }
 }
 
 /// Momentum of the mixture, and of the grains, in the volume of a node.
-pub(super) fn momentum<T: Real>(
-    flow: &Flow,
+pub(super) fn momentum<T: Real, F: FrictionLaw>(
+    flow: &Flow<F>,
     (above, below): (Side<T>, Side<T>),
     w: (T, T),
     node: Weights,
@@ -183,13 +184,13 @@ pub(super) fn momentum<T: Real>(
 }
 
 /// What the velocities and the decompaction lose across a cell: of the grains, the slip, the decompaction.
-pub(super) fn losses<T: Real>(flow: &Flow, cell: &Cell<T>) -> [T; 3] {
+pub(super) fn losses<T: Real, F: FrictionLaw>(flow: &Flow<F>, cell: &Cell<T>) -> [T; 3] {
     let strain = cell.gamma * cell.dz;
     [strain, cell.rate * cell.dz - strain, cell.dz - cell.dm / flow.dilatancy.phi_max]
 }
 
 /// The residual of the bed at `state`, by rows: momentum of mixture and grains, then `u w D` across the cell, from the top.
-pub fn residual(flow: &Flow, mesh: &Mesh, state: &State, out: &mut [f64]) {
+pub fn residual<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, state: &State, out: &mut [f64]) {
     let mut above = Side::top(state.tau_b);
     for (c, rows) in out.chunks_exact_mut(STRIDE).enumerate() {
         let cell = cell(flow, mesh, state, c);
@@ -206,11 +207,17 @@ pub fn residual(flow: &Flow, mesh: &Mesh, state: &State, out: &mut [f64]) {
 
 /// The grains at rest under the last cell, which carry just mu_s P_p at their top: there the momentum of the grains over the
 /// lower half of the last cell is the equation for the volume of the moving grains.
-pub(super) fn at_yield<T: Real>(flow: &Flow, last: Side<T>, w: T, (sine, m): (T, T), under_cut: f64) -> T {
+pub(super) fn at_yield<T: Real, F: FrictionLaw>(
+    flow: &Flow<F>,
+    last: Side<T>,
+    w: T,
+    (sine, m): (T, T),
+    under_cut: f64,
+) -> T {
     let zero = T::constant(0.0);
     let cosine = (-(sine * sine) + 1.0).sqrt();
     let still =
-        Side { phi: last.phi, s: zero, tau_p: cosine * m * flow.friction.mu_s, tau_f: zero, dz: zero, dm: zero };
+        Side { phi: last.phi, s: zero, tau_p: cosine * m * flow.friction.least(), tau_f: zero, dz: zero, dm: zero };
     // The slip vanishes at the yield level; nothing shears there, and the stress of the fluid is all viscous.
     let (w, node) = ((w * 0.25, zero), Weights { own: 1.0, below: 0.0, under_cut });
     let (s, _) = momentum(flow, (last, still), w, node, sine);
@@ -218,14 +225,14 @@ pub(super) fn at_yield<T: Real>(flow: &Flow, last: Side<T>, w: T, (sine, m): (T,
 }
 
 /// Share of the lower half of the last cell that is below the cut.
-pub(super) fn last_below_cut(flow: &Flow, mesh: &Mesh, m: f64) -> f64 {
+pub(super) fn last_below_cut<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, m: f64) -> f64 {
     let above = m * mesh.middles[mesh.cells() - 1];
     ((m - flow.cut) / (m - above)).clamp(0.0, 1.0)
 }
 
 /// The residual of the momentum of the grains at the yield level.
 #[must_use]
-pub fn yield_residual(flow: &Flow, mesh: &Mesh, state: &State) -> f64 {
+pub fn yield_residual<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, state: &State) -> f64 {
     let c = mesh.cells() - 1;
     let last = Side::of(&cell(flow, mesh, state, c), state.s(c));
     at_yield(flow, last, state.w(c), (state.sine, state.m), last_below_cut(flow, mesh, state.m))

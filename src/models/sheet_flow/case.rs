@@ -1,19 +1,20 @@
 //! The tables that only a sheet flow has.
 
-use crate::case::tables::{Fluid, Grains};
-use crate::tables;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::case::tables::SlopeDefinition;
-use crate::closures::dilatancy::Dilatancy;
-use crate::closures::drag::Drag;
-use crate::closures::friction::Friction;
+use crate::case::tables::{Fluid, Grains};
+use crate::closures::dilatancy::PhiI;
+use crate::closures::drag::Dallavalle;
+use crate::closures::friction::{FrictionLaw, MuI};
 use crate::closures::lid::Lid;
-use crate::closures::mixing_length::MixingLength;
+use crate::closures::mixing_length::LiSawamoto;
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::rearrangement::Rearrangement;
+use crate::closures::role::Only;
 use crate::closures::suspension::Suspension;
+use crate::tables;
 
 /// A bed that loosens and goes into suspension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -105,20 +106,22 @@ pub enum SheetMethod {
 
 /// Laws of the sheet flow.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SheetClosures {
+#[serde(bound = "")]
+#[schemars(bound = "")]
+pub struct SheetClosures<F: FrictionLaw = MuI> {
     /// Friction of the grains.
-    pub friction: Friction,
+    pub friction: Only<F>,
     /// Dilatancy of the grains.
-    pub dilatancy: Dilatancy,
+    pub dilatancy: Only<PhiI>,
     /// Rearrangement time of the grains.
     #[serde(default)]
     pub rearrangement: Rearrangement,
     /// Effective viscosity of the mixture.
     pub mixture_viscosity: MixtureViscosity,
     /// Drag between the phases.
-    pub drag: Drag,
+    pub drag: Only<Dallavalle>,
     /// Mixing length of the turbulence.
-    pub mixing_length: MixingLength,
+    pub mixing_length: Only<LiSawamoto>,
     /// Grains in suspension.
     #[serde(default)]
     pub suspension: Suspension,
@@ -228,7 +231,8 @@ impl Default for SheetSolver {
 
 tables! {
     /// Turbulent flow over a bed of grains that shear as dense granular flow, with a suspension above.
-    pub struct SheetFlowTables {
+    #[schemars(rename = "SheetFlowTables")]
+    pub struct SheetFlowTables<F: FrictionLaw = MuI> {
         /// The fluid.
         fluid: Fluid,
         /// The grains.
@@ -240,7 +244,7 @@ tables! {
         /// The model.
         model: SheetModel,
         /// Laws.
-        closures: SheetClosures,
+        closures: SheetClosures<F>,
         /// Small numbers.
         #[serde(default)]
         regularisation: SheetRegularisation,

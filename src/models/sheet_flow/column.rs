@@ -5,7 +5,8 @@ use super::flow::Flow;
 use super::linear::{self, LOCAL, LocalCell};
 use super::newton::Column;
 use super::suspension::{Inflow, Meshes, Totals, march};
-use crate::closures::lid::{ColebrookWhite, Lid, LidStress};
+use crate::closures::friction::FrictionLaw;
+use crate::closures::lid::{ColebrookWhite, Lid, Stress};
 use crate::models::sheet_flow::{BedReading, SheetFlow};
 use crate::numerics::dual::{Dual, Real};
 
@@ -59,9 +60,9 @@ pub fn interface_weights(middles: &[f64]) -> (f64, f64) {
 impl Setting {
     /// Drive and geometry of a flow, scaled.
     #[must_use]
-    pub fn scaled(sheet: &SheetFlow) -> Self {
+    pub fn scaled<F: FrictionLaw>(sheet: &SheetFlow<F>) -> Self {
         let lid = match sheet.lid {
-            Lid::Stress(law) => Lid::Stress(LidStress { stress: law.stress / sheet.stress_scale() }),
+            Lid::Stress(law) => Lid::Stress(Stress { stress: law.stress / sheet.stress_scale() }),
             Lid::ColebrookWhite(law) => Lid::ColebrookWhite(ColebrookWhite { roughness: law.roughness / sheet.d }),
             other => other,
         };
@@ -76,12 +77,18 @@ impl Setting {
     }
 
     /// Inputs of the layer above the interface for the state of the bed.
-    pub fn inflow<T: Real>(flow: &Flow, phi: T, d: T, u: T, (tau_b, sine, m): (T, T, T)) -> Inflow<T> {
+    pub fn inflow<T: Real, F: FrictionLaw>(
+        flow: &Flow<F>,
+        phi: T,
+        d: T,
+        u: T,
+        (tau_b, sine, m): (T, T, T),
+    ) -> Inflow<T> {
         Inflow { phi, length: flow.mixing_length(d, m), u, tau_b, sine }
     }
 
     /// Stress that the lid takes, for the totals of the layer above the interface and its stress.
-    pub fn lid_stress<T: Real>(&self, flow: &Flow, totals: &Totals<T>, inflow: &Inflow<T>) -> T {
+    pub fn lid_stress<T: Real, F: FrictionLaw>(&self, flow: &Flow<F>, totals: &Totals<T>, inflow: &Inflow<T>) -> T {
         match self.lid {
             Lid::FreeSurface => T::constant(0.0),
             Lid::Stress(law) => T::constant(law.stress),
@@ -95,9 +102,9 @@ impl Setting {
     }
 
     /// The closing equations for phi, decompaction and velocity at the interface, and tau_b, sine, m, rest; but the last.
-    fn equations<T: Real>(
+    fn equations<T: Real, F: FrictionLaw>(
         &self,
-        flow: &Flow,
+        flow: &Flow<F>,
         meshes: &Meshes,
         [phi, d, u, tau_b, sine, m, rest]: [T; INPUTS],
     ) -> [T; 3] {
@@ -129,7 +136,7 @@ impl Setting {
 
     /// Residuals of the closing equations at `state`.
     #[must_use]
-    pub fn closing_residual(&self, column: &Column, state: &State) -> [f64; 4] {
+    pub fn closing_residual<F: FrictionLaw>(&self, column: &Column<F>, state: &State) -> [f64; 4] {
         let Column { flow, mesh, meshes, .. } = column;
         let weights = interface_weights(&mesh.middles);
         let phi = |c: usize| bed::cell(flow, mesh, state, c).phi;
@@ -144,7 +151,7 @@ impl Setting {
 
     /// The closing equations at `state`, with their derivatives.
     #[must_use]
-    pub fn closing(&self, column: &Column, state: &State, cells: &[LocalCell]) -> Closing {
+    pub fn closing<F: FrictionLaw>(&self, column: &Column<F>, state: &State, cells: &[LocalCell]) -> Closing {
         let Column { flow, mesh, meshes, .. } = column;
         let weights = interface_weights(&mesh.middles);
         let phi_0 = weights.0 * cells[0].phi.value + weights.1 * cells[1].phi.value;

@@ -1,14 +1,17 @@
 //! The equations that are solved, with their numbers.
 
+use crate::closures::dilatancy::phi_i;
+use crate::closures::friction::FrictionLaw;
 use crate::closures::lid::Lid;
 use crate::models::sheet_flow::{BedReading, SheetFlow, SheetMethod};
 use crate::units::significant;
 
 /// The equations that are solved, with their numbers.
 #[must_use]
-pub fn equations(sheet: &SheetFlow) -> String {
+pub fn equations<F: FrictionLaw>(sheet: &SheetFlow<F>) -> String {
     let n = |x: f64| significant(x, 5);
     let (mu, phi) = (sheet.friction, sheet.dilatancy);
+    let constants: Vec<String> = mu.constants().iter().map(|(symbol, x)| format!("{symbol} = {}", n(*x))).collect();
     let drive = match (sheet.tau_b, sheet.sine) {
         (Some(tau), Some(sine)) => format!("τ_b = {} Pa and sin β = {}: τ_top follows", n(tau), n(sine)),
         (Some(tau), None) => format!("τ_b = {} Pa: sin β follows", n(tau)),
@@ -58,8 +61,8 @@ pub fn equations(sheet: &SheetFlow) -> String {
          pressure      P_p = (ρ_p - ρ_f) g cos β m,  m = ∫ φ dz from z to h_p\n\
          drag          C_D = ρ_f φ/(d (1 - φ)^{exponent}) (0.3 |U - u_p| + 18.3 η/(ρ_f d))\n\
          viscosity     τ_f = η_e U',  η_e by {viscosity}\n\
-         friction      {yielding},  μ(I) = μ_s + (μ_2 - μ_s)/(I_0/I + 1),  μ_s = {mu_s}, μ_2 = {mu_2}, I_0 = {i_0}\n\
-         dilatancy     φ = φ_max/(1 + b I^½),  φ_max = {phi_max}, b = {b}\n\
+         friction      {yielding},  {law},  {constants}\n\
+         dilatancy     {spread},  φ_max = {phi_max}, b = {b}\n\
          inertia       I = t γ,  {time}\n\
          {posed}\n\
          bottom        U = u_p = 0;  at h_p the stress, the velocity, φ and l are continuous, P_p = 0\n\
@@ -73,12 +76,12 @@ pub fn equations(sheet: &SheetFlow) -> String {
         cut = n(sheet.cut),
         exponent = n(sheet.drag.exponent),
         viscosity = sheet.viscosity.info().equation,
-        mu_s = n(mu.mu_s),
-        mu_2 = n(mu.mu_2),
-        i_0 = n(mu.i_0),
+        law = F::INFO.equation,
+        constants = constants.join(", "),
         posed = posed,
         phi_max = n(phi.phi_max),
         b = n(phi.b),
+        spread = phi_i::INFO.equation,
         time = sheet.rearrangement.info().equation,
     )
 }

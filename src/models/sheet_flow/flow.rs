@@ -5,22 +5,22 @@
 
 use crate::closures::dilatancy::PhiI;
 use crate::closures::drag::Dallavalle;
-use crate::closures::friction::MuI;
-use crate::closures::mixture_viscosity::MixtureViscosity;
-use crate::closures::rearrangement::{Grain, Rearrangement};
+use crate::closures::friction::{FrictionLaw, MuI};
+use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
+use crate::closures::rearrangement::{Clock, Grain, Rearrangement};
 use crate::closures::suspension::{Rouse, Suspension};
 use crate::models::sheet_flow::SheetFlow;
 use crate::numerics::dual::Real;
 
 /// Laws and constants of the flow, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flow {
+pub struct Flow<F = MuI> {
     /// rho_p/rho_f - 1
     pub delta: f64,
     /// kinematic viscosity
     pub nu: f64,
     /// friction of the grains
-    pub friction: MuI,
+    pub friction: F,
     /// dilatancy of the grains
     pub dilatancy: PhiI,
     /// effective viscosity of the mixture
@@ -85,10 +85,10 @@ pub struct Unknowns<T> {
     pub rest: T,
 }
 
-impl Flow {
+impl<F: FrictionLaw> Flow<F> {
     /// The laws of a flow, scaled.
     #[must_use]
-    pub fn scaled(sheet: &SheetFlow) -> Self {
+    pub fn scaled(sheet: &SheetFlow<F>) -> Self {
         let velocity = sheet.velocity_scale();
         Self {
             delta: sheet.rho_p / sheet.rho_f - 1.0,

@@ -13,7 +13,10 @@ use super::bed::{self, STRIDE, State, Weights};
 use super::column::interface_weights;
 use super::newton::{Column, Stalled};
 use super::suspension::march;
+use crate::closures::friction::FrictionLaw;
 use crate::closures::lid::Lid;
+use crate::closures::mixture_viscosity::RelativeViscosity;
+use crate::closures::rearrangement::Clock;
 use crate::models::sheet_flow::BedReading;
 use crate::numerics::block_thomas::{self, Row};
 
@@ -45,7 +48,7 @@ struct Lagged {
     whole: f64,
 }
 
-impl Column {
+impl<F: FrictionLaw> Column<F> {
     /// Iterates from rest, or from `state`; the residuals go to `history`, and `stop` may end it.
     ///
     /// # Errors

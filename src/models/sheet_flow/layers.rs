@@ -7,7 +7,8 @@ use super::flow::Cell;
 use super::newton::Column;
 use super::solve::Solved;
 use super::suspension::{Inflow, Level, Totals, march};
-use crate::closures::rearrangement::Regime;
+use crate::closures::friction::FrictionLaw;
+use crate::closures::rearrangement::{Clock, Regime};
 
 /// Solid fraction of the bottom of the sheet, relative to that at rest.
 const STILL: f64 = 0.999;
@@ -55,7 +56,7 @@ pub struct Sheet {
 impl Layers {
     /// All that follows from `state`.
     #[must_use]
-    pub fn new(column: &Column, state: &State) -> Self {
+    pub fn new<F: FrictionLaw>(column: &Column<F>, state: &State) -> Self {
         let Column { flow, setting, mesh, meshes, .. } = column;
         let n = mesh.cells();
         let mut cells: Vec<Cell<f64>> = (0..n).map(|c| bed::cell(flow, mesh, state, c)).collect();
@@ -98,7 +99,7 @@ impl Layers {
 
     /// The moving layer; `None` if all of the bed is looser than at rest.
     #[must_use]
-    pub fn sheet(&self, solved: &Solved) -> Option<Sheet> {
+    pub fn sheet<F: FrictionLaw>(&self, solved: &Solved<F>) -> Option<Sheet> {
         let flow = &solved.column.flow;
         let limit = flow.dilatancy.inertial_number(STILL * flow.dilatancy.phi_max);
         let n = self.cells.len();
@@ -111,7 +112,7 @@ impl Layers {
         let (share, below) = if b.inertia > 0.0 {
             ((a.inertia / limit).ln() / (a.inertia / b.inertia).ln(), self.middle(last + 1))
         } else {
-            let (r, mu_s) = (a.tau_p / a.pressure, flow.friction.mu_s);
+            let (r, mu_s) = (a.tau_p / a.pressure, flow.friction.least());
             ((r - flow.friction.mu(limit)) / (r - mu_s), self.z[last + 1])
         };
         let bottom = self.middle(last) + share * (below - self.middle(last));
@@ -145,12 +146,12 @@ impl Layers {
 }
 
 /// The grains at rest below the yield level, downwards, with the stress of the fluid in them.
-fn resting(column: &Column, state: &State, last: &Cell<f64>) -> Vec<(Cell<f64>, f64)> {
+fn resting<F: FrictionLaw>(column: &Column<F>, state: &State, last: &Cell<f64>) -> Vec<(Cell<f64>, f64)> {
     let flow = &column.flow;
     let c = column.mesh.cells() - 1;
     let cosine = (1.0 - state.sine * state.sine).sqrt();
     // The stress at the yield level, from the balance of the lower half of the last cell.
-    let yielding = flow.friction.mu_s * cosine * state.m;
+    let yielding = flow.friction.least() * cosine * state.m;
     let weight = flow.fluid_weight(state.sine) * last.dz + state.sine * last.dm;
     let s = state.s(c) + last.tau_p - yielding + 0.5 * weight;
     let share = |j: usize| (j as f64 / RESTING as f64).powi(2) * state.rest;

@@ -3,6 +3,7 @@
 use super::bed::{STRIDE, Side, State, Weights, at_yield, last_below_cut, losses, momentum};
 use super::flow::{Cell, Flow, Unknowns};
 use super::mesh::Mesh;
+use crate::closures::friction::FrictionLaw;
 use crate::numerics::banded::Banded;
 use crate::numerics::dual::{Dual, Real};
 
@@ -16,7 +17,7 @@ pub type LocalCell = Cell<Dual<LOCAL>>;
 
 /// The laws in cell `c`, with their derivatives.
 #[must_use]
-pub fn local_cell(flow: &Flow, mesh: &Mesh, state: &State, c: usize) -> LocalCell {
+pub fn local_cell<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, state: &State, c: usize) -> LocalCell {
     let v = |x: f64, i: usize| Dual::<LOCAL>::variable(x, i);
     let x = state.unknowns(c);
     let x = Unknowns {
@@ -84,7 +85,13 @@ fn value(cell: &LocalCell, s: f64) -> Side<f64> {
 }
 
 /// [`momentum`] with its derivatives by hand: dual numbers in all directions of a node cost three times as much.
-fn node(flow: &Flow, state: &State, (above, below): (Beside<'_>, Beside<'_>), w: (f64, f64), node: Weights) -> Node {
+fn node<F: FrictionLaw>(
+    flow: &Flow<F>,
+    state: &State,
+    (above, below): (Beside<'_>, Beside<'_>),
+    w: (f64, f64),
+    node: Weights,
+) -> Node {
     let sides = (above.1, below.1);
     let (mixture, grains) = momentum(flow, sides, w, node, state.sine);
     let (a, b) = sides;
@@ -127,7 +134,12 @@ fn node(flow: &Flow, state: &State, (above, below): (Beside<'_>, Beside<'_>), w:
 
 /// The same with its derivatives: by the unknowns of the last cell, and by the slip of its upper node.
 #[must_use]
-pub fn yield_slopes(flow: &Flow, mesh: &Mesh, state: &State, last: &LocalCell) -> Dual<{ LOCAL + 1 }> {
+pub fn yield_slopes<F: FrictionLaw>(
+    flow: &Flow<F>,
+    mesh: &Mesh,
+    state: &State,
+    last: &LocalCell,
+) -> Dual<{ LOCAL + 1 }> {
     let wide = |x: Dual<LOCAL>| {
         let mut slope = [0.0; LOCAL + 1];
         slope[..LOCAL].copy_from_slice(&x.slope);
@@ -167,7 +179,7 @@ impl Linearised {
     }
 
     /// Evaluates the equations at `state`; `cells` are its cells with derivatives.
-    pub fn fill(&mut self, flow: &Flow, mesh: &Mesh, state: &State, cells: &[LocalCell]) {
+    pub fn fill<F: FrictionLaw>(&mut self, flow: &Flow<F>, mesh: &Mesh, state: &State, cells: &[LocalCell]) {
         let n = cells.len();
         self.jacobian.clear();
         self.border.fill([0.0; 4]);

@@ -9,12 +9,13 @@ use super::flow::Flow;
 use super::linear::{Linearised, LocalCell, local_cell};
 use super::mesh::Mesh;
 use super::suspension::Meshes;
+use crate::closures::friction::{FrictionLaw, MuI};
 
 /// The discrete column.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Column {
+pub struct Column<F = MuI> {
     /// laws
-    pub flow: Flow,
+    pub flow: Flow<F>,
     /// drive and geometry
     pub setting: Setting,
     /// mesh of the bed
@@ -68,7 +69,7 @@ const TOWARDS_MU_2: f64 = 0.9;
 /// Steps without a decrease before giving up.
 const PATIENCE: usize = 6;
 
-impl Column {
+impl<F: FrictionLaw> Column<F> {
     /// The cells of the bed with their derivatives.
     #[must_use]
     pub fn local_cells(&self, state: &State) -> Vec<LocalCell> {
@@ -161,7 +162,7 @@ impl Column {
 
     /// Takes a share of the step, as far as the unknowns keep their meaning.
     fn advance(&self, from: &State, step: &Step, alpha: f64, state: &mut State) {
-        let mu_2 = self.flow.friction.mu_2;
+        let mu_2 = self.flow.friction.most();
         for (i, ((value, old), step)) in state.x.iter_mut().zip(&from.x).zip(&step.0).enumerate() {
             *value = old + alpha * step;
             if i % STRIDE == 3 {

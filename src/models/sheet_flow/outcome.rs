@@ -10,7 +10,7 @@ use super::newton::{Reason, Stalled};
 use super::profile::profile;
 use super::solve::{self, Solved};
 use crate::closures::dilatancy::phi_i;
-use crate::closures::friction::mu_i;
+use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE};
 use crate::closures::lid::{Lid, colebrook_white};
 use crate::closures::suspension::{Suspension, rouse};
 use crate::closures::{Info, Range};
@@ -32,7 +32,7 @@ const LARGEST: f64 = 1e60;
 ///
 /// # Errors
 /// Why there is no steady sheet flow over a bed at rest, or why the method did not find it.
-pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
+pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let (flow, setting) = (Flow::scaled(sheet), Setting::scaled(sheet));
     let scaled = [setting.height, setting.level, flow.delta, flow.nu, flow.lambda, flow.cut];
     let given = [setting.tau_b, setting.sine].into_iter().flatten();
@@ -75,7 +75,7 @@ pub fn run(sheet: &SheetFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
 }
 
 /// Why the method found nothing: no bed at rest can exist, or it failed.
-fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled) -> SolveError {
+fn unsolved<F: FrictionLaw>(sheet: &SheetFlow<F>, flow: &Flow<F>, setting: &Setting, stalled: Stalled) -> SolveError {
     match stalled.reason {
         Some(Reason::RunsAway(level)) => {
             return SolveError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d };
@@ -92,7 +92,7 @@ fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled)
     }
     // The stress of the interface alone needs this much weight of grains to be held.
     let grains = flow.dilatancy.phi_max * setting.level;
-    if let Some(tau_b) = setting.tau_b.filter(|tau_b| *tau_b >= flow.friction.mu_s * grains) {
+    if let Some(tau_b) = setting.tau_b.filter(|tau_b| *tau_b >= flow.friction.least() * grains) {
         return SolveError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
     }
     // Grains at rest in a deep bed carry the slope of the whole mixture, at most mu_s P_p.
@@ -103,18 +103,18 @@ fn unsolved(sheet: &SheetFlow, flow: &Flow, setting: &Setting, stalled: Stalled)
     if let Some(sine) = sine {
         let cosine = (1.0 - sine * sine).max(0.0).sqrt();
         let drive = sine * (1.0 / (flow.delta * flow.dilatancy.phi_max) + 1.0);
-        if drive >= flow.friction.mu_s * cosine {
-            return SolveError::NoStaticBed { drive, limit: flow.friction.mu_s * cosine };
+        if drive >= flow.friction.least() * cosine {
+            return SolveError::NoStaticBed { drive, limit: flow.friction.least() * cosine };
         }
     }
     SolveError::not_converged(stalled.residual, stalled.iterations)
 }
 
 /// Refuses a solution of the equations that is none of the flow.
-fn refuse(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Result<(), SolveError> {
+fn refuse<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &Layers) -> Result<(), SolveError> {
     let (flow, state, d) = (&solved.column.flow, &solved.state, sheet.d);
     let bottom = solved.column.mesh.cells() - 1;
-    if state.rest < 0.0 || (solved.column.floor == Floor::Bottom && state.r(bottom) >= flow.friction.mu_s) {
+    if state.rest < 0.0 || (solved.column.floor == Floor::Bottom && state.r(bottom) >= flow.friction.least()) {
         return Err(SolveError::NothingAtRest { bed_m: layers.z[0] * d, shields: state.tau_b });
     }
     if layers.lid < -1e-9 * state.tau_b {
@@ -127,7 +127,7 @@ fn refuse(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Result<(), Sol
     Ok(())
 }
 
-fn results(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Results {
+fn results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &Layers) -> Results {
     let (flow, state) = (&solved.column.flow, &solved.state);
     let (d, velocity, stress) = (sheet.d, sheet.velocity_scale(), sheet.stress_scale());
     let rate = layers.psi() * velocity * d;
@@ -171,7 +171,7 @@ fn results(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Results {
 }
 
 /// The numbers of the moving layer.
-fn sheet_results(sheet: &SheetFlow, solved: &Solved, layers: &Layers, results: &mut Results) {
+fn sheet_results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &Layers, results: &mut Results) {
     let (flow, state, d) = (&solved.column.flow, &solved.state, sheet.d);
     let all = [
         &q::SHEET_THICKNESS,
@@ -197,7 +197,7 @@ fn sheet_results(sheet: &SheetFlow, solved: &Solved, layers: &Layers, results: &
         return;
     }
     let cosine = (1.0 - state.sine * state.sine).sqrt();
-    let hold = flow.friction.mu_s * phi;
+    let hold = flow.friction.least() * phi;
     results.set(&q::SHEET_THICKNESS, thickness * d);
     let net = hold * cosine - (1.0 / flow.delta + phi) * state.sine;
     if net > 0.0 {
@@ -217,7 +217,7 @@ fn sheet_results(sheet: &SheetFlow, solved: &Solved, layers: &Layers, results: &
     results.set(&q::TURBULENT_SHARE, moving.falls.1);
 }
 
-fn balances(solved: &Solved, layers: &Layers) -> Vec<Balance> {
+fn balances<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Balance> {
     let (column, state) = (&solved.column, &solved.state);
     let n = layers.cells.len();
     // Down to the middle of the lowest cell.
@@ -257,7 +257,7 @@ fn balances(solved: &Solved, layers: &Layers) -> Vec<Balance> {
 }
 
 /// Closures used outside their range.
-fn validity(sheet: &SheetFlow, results: &Results, layers: &Layers) -> Vec<Validity> {
+fn validity<F: FrictionLaw>(sheet: &SheetFlow<F>, results: &Results, layers: &Layers) -> Vec<Validity> {
     let at = |info: &Info, range: &Range, value: f64, z: f64| {
         outside(closure_name(info), range, value).map(|v| Validity { z_m: Some(z * sheet.d), ..v })
     };
@@ -265,7 +265,9 @@ fn validity(sheet: &SheetFlow, results: &Results, layers: &Layers) -> Vec<Validi
     let top = layers.z[0];
     let largest = layers.cells.iter().map(|cell| cell.inertia).fold(0.0, f64::max);
     let mut found: Vec<Validity> = Vec::new();
-    found.extend(at(&mu_i::INFO, &mu_i::INERTIAL_RANGE, largest, top));
+    for range in F::INFO.ranges.iter().filter(|range| range.variable == INERTIAL_RANGE.variable) {
+        found.extend(at(F::INFO, range, largest, top));
+    }
     found.extend(at(&phi_i::INFO, &phi_i::RANGE, phi, top));
     for range in sheet.viscosity.info().ranges {
         found.extend(at(sheet.viscosity.info(), range, phi, top));

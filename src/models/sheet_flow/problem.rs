@@ -5,13 +5,14 @@ use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::case::tables::SlopeDefinition;
 use crate::closures::Info;
-use crate::closures::dilatancy::{self, Dilatancy, PhiI};
-use crate::closures::drag::{self, Dallavalle, Drag};
-use crate::closures::friction::{self, Friction, MuI};
+use crate::closures::dilatancy::{self, PhiI};
+use crate::closures::drag::{self, Dallavalle};
+use crate::closures::friction::{FrictionLaw, MuI};
 use crate::closures::lid::Lid;
-use crate::closures::mixing_length::{self, BelowPacked, LiSawamoto, MixingLength};
-use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::mixing_length::{self, BelowPacked, LiSawamoto};
+use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::rearrangement::Rearrangement;
+use crate::closures::role::Only;
 use crate::closures::suspension::Suspension;
 use crate::model::{
     COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
@@ -24,7 +25,7 @@ use crate::units::significant;
 
 /// A sheet flow. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SheetFlow {
+pub struct SheetFlow<F = MuI> {
     /// density of the fluid [kg/m3]
     pub rho_f: f64,
     /// viscosity of the fluid [Pa s]
@@ -48,7 +49,7 @@ pub struct SheetFlow {
     /// top of the flow
     pub lid: Lid,
     /// friction of the grains
-    pub friction: MuI,
+    pub friction: F,
     /// dilatancy of the grains
     pub dilatancy: PhiI,
     /// rearrangement time of the grains
@@ -73,7 +74,7 @@ pub struct SheetFlow {
     pub pace: (f64, f64, usize),
 }
 
-impl SheetFlow {
+impl<F: FrictionLaw> SheetFlow<F> {
     /// Stress scale (rho_p - rho_f) g d \[Pa].
     #[must_use]
     pub fn stress_scale(&self) -> f64 {
@@ -92,11 +93,11 @@ const ERROR: f64 = 0.26;
 /// Drives, and those that were given.
 const DRIVES: [&str; 3] = ["shields", "u_star", "slope"];
 
-impl Model for OnMesh<SheetFlow> {
+impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
     const INFO: ModelInfo = ModelInfo { name: "sheet-flow", stochastic: false };
-    type Tables = SheetFlowTables;
+    type Tables = SheetFlowTables<F>;
 
-    fn build(tables: &SheetFlowTables, faults: &mut Faults) -> Option<Self> {
+    fn build(tables: &SheetFlowTables<F>, faults: &mut Faults) -> Option<Self> {
         let SheetFlowTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
         if bed.level >= flow.height {
             faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
@@ -107,19 +108,11 @@ impl Model for OnMesh<SheetFlow> {
         if grains.density <= fluid.density {
             faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
         }
-        let dilatancy = match closures.dilatancy {
-            Dilatancy::PhiI(law) => law,
-            other => {
-                let (law, allowed) = (other.info().law, vec![dilatancy::phi_i::INFO.law]);
-                let fault = Fault::LawMismatch { family: "dilatancy", law, model: Self::INFO.name.into(), allowed };
-                faults.push(("closures.dilatancy.law", fault));
-                return None;
-            }
-        };
-        if let MixtureViscosity::Boyer(law) = closures.mixture_viscosity
-            && law.phi_max < dilatancy.phi_max
-        {
-            let fault = Fault::PackedBeyond { law: "the viscosity", phi_max: law.phi_max, bed: dilatancy.phi_max };
+        let (Only(friction), Only(dilatancy)) = (closures.friction, closures.dilatancy);
+        let (Only(drag), Only(mixing_length)) = (closures.drag, closures.mixing_length);
+        let phi_max = closures.mixture_viscosity.phi_max();
+        if phi_max < dilatancy.phi_max {
+            let fault = Fault::PackedBeyond { law: "the viscosity", phi_max, bed: dilatancy.phi_max };
             faults.push(("closures.mixture_viscosity.phi_max", fault));
         }
         let drives: Vec<String> = [flow.shields, flow.u_star, flow.slope]
@@ -138,44 +131,16 @@ impl Model for OnMesh<SheetFlow> {
             faults.push(("flow", Fault::Drives { given: drives, allowed }));
         }
         let sine = flow.slope.map(|slope| slope_sine(slope, flow.slope_definition, faults));
-        let mismatch = |family, law, allowed| Fault::LawMismatch {
-            family,
-            law,
-            model: Self::INFO.name.into(),
-            allowed: vec![allowed],
-        };
-        let friction = match closures.friction {
-            Friction::MuI(law) => Some(law),
-            other => {
-                faults.push(("closures.friction.law", mismatch("friction", other.law(), friction::mu_i::INFO.law)));
-                None
-            }
-        };
-        if let Some(MuI { mu_s, mu_2, .. }) = friction
-            && mu_2 <= mu_s
-        {
+        let (mu_s, mu_2) = (friction.least(), friction.most());
+        if mu_2 <= mu_s {
             faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s, mu_2 }));
         }
-        let drag = match closures.drag {
-            Drag::Dallavalle(law) => Some(law),
-            other => {
-                faults.push(("closures.drag.law", mismatch("drag", other.info().law, drag::dallavalle::INFO.law)));
-                None
-            }
-        };
-        let mixing_length = match closures.mixing_length {
-            MixingLength::LiSawamoto(law) => Some(law),
-            other => {
-                let allowed = mixing_length::li_sawamoto::INFO.law;
-                faults.push(("closures.mixing_length.law", mismatch("mixing_length", other.info().law, allowed)));
-                None
-            }
-        };
-        if let Some(law) = mixing_length
-            && (law.phi_max < dilatancy.phi_max || law.below_packed == BelowPacked::Zero)
-        {
-            let fault = Fault::PackedBeyond { law: "the mixing length", phi_max: law.phi_max, bed: dilatancy.phi_max };
-            faults.push(("closures.mixing_length.phi_max", fault));
+        if mixing_length.phi_max < dilatancy.phi_max || mixing_length.below_packed == BelowPacked::Zero {
+            let (phi_max, bed) = (mixing_length.phi_max, dilatancy.phi_max);
+            faults.push((
+                "closures.mixing_length.phi_max",
+                Fault::PackedBeyond { law: "the mixing length", phi_max, bed },
+            ));
         }
         let lambda = match (regularisation.law, regularisation.lambda) {
             (SheetSmoothing::None, None) => Some(0.0),
@@ -207,12 +172,12 @@ impl Model for OnMesh<SheetFlow> {
             },
             sine,
             lid: closures.lid,
-            friction: friction?,
+            friction,
             dilatancy,
             rearrangement: closures.rearrangement,
             viscosity: closures.mixture_viscosity,
-            drag: drag?,
-            mixing_length: mixing_length?,
+            drag,
+            mixing_length,
             suspension: closures.suspension,
             lambda,
             cut: regularisation.interface_cut * grains.diameter,
@@ -249,7 +214,7 @@ impl Model for OnMesh<SheetFlow> {
     }
 }
 
-impl Solve for OnMesh<SheetFlow> {
+impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
     fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
         run(&self.problem, self.cells, context.watch)
     }
@@ -295,7 +260,7 @@ impl Solve for OnMesh<SheetFlow> {
             depth,
             sine: flow.sine.or(result(q::SLOPE_SINE.name)).unwrap_or(balanced),
             theta,
-            mu_s: flow.friction.mu_s,
+            mu_s: flow.friction.least(),
             contacts: None,
             settling: match flow.suspension {
                 Suspension::Rouse(law) => Some(law.settling_velocity),
@@ -334,9 +299,9 @@ fn slope_sine(slope: f64, definition: SlopeDefinition, faults: &mut Faults) -> O
     Some(if definition == SlopeDefinition::Sine { slope } else { angle.sin() })
 }
 
-fn laws(flow: &SheetFlow) -> Vec<&'static Info> {
+fn laws<F: FrictionLaw>(flow: &SheetFlow<F>) -> Vec<&'static Info> {
     vec![
-        &friction::mu_i::INFO,
+        F::INFO,
         &dilatancy::phi_i::INFO,
         flow.rearrangement.info(),
         flow.viscosity.info(),

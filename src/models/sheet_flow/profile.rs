@@ -2,6 +2,7 @@
 
 use super::layers::Layers;
 use super::solve::Solved;
+use crate::closures::friction::FrictionLaw;
 use crate::models::sheet_flow::SheetFlow;
 use crate::result::{Profile, Quantity, TableError, quantity as q};
 
@@ -27,7 +28,11 @@ struct Row {
     cumulative: f64,
 }
 
-pub(super) fn profile(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Result<Profile, TableError> {
+pub(super) fn profile<F: FrictionLaw>(
+    sheet: &SheetFlow<F>,
+    solved: &Solved<F>,
+    layers: &Layers,
+) -> Result<Profile, TableError> {
     let rows = rows(solved, layers);
     let (d, velocity, stress) = (sheet.d, sheet.velocity_scale(), sheet.stress_scale());
     let column = |scale: f64, value: &dyn Fn(&Row) -> Option<f64>| -> Vec<Option<f64>> {
@@ -58,7 +63,7 @@ pub(super) fn profile(sheet: &SheetFlow, solved: &Solved, layers: &Layers) -> Re
     Ok(profile)
 }
 
-fn rows(solved: &Solved, layers: &Layers) -> Vec<Row> {
+fn rows<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Row> {
     let flow = &solved.column.flow;
     let n = layers.cells.len();
     let mut rows = vec![Row { phi: layers.cells[n - 1].phi, u_particle: Some(0.0), ..Row::default() }];

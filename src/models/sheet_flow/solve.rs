@@ -8,6 +8,7 @@ use super::iteration::Pace;
 use super::mesh::Mesh;
 use super::newton::{Column, Reason, Stalled};
 use super::start::{Guess, TOP, mobile_volume};
+use crate::closures::friction::{FrictionLaw, MuI};
 use crate::models::sheet_flow::BedReading;
 
 /// Cells of the coarse mesh, and share of the range of the friction at which the first guess lets the grains shear; tried in
@@ -53,9 +54,9 @@ const LOWEST: f64 = 1e-16;
 
 /// A solved column.
 #[derive(Clone, Debug)]
-pub struct Solved {
+pub struct Solved<F = MuI> {
     /// the discrete column; its cut is the one that was used
-    pub column: Column,
+    pub column: Column<F>,
     /// its solution
     pub state: State,
     /// the solution with the exact yield on the same mesh, where there is a regularisation and it was computed
@@ -67,13 +68,13 @@ pub struct Solved {
 }
 
 /// A column with the exact yield, its solution, and the depth of the change of type.
-type Exact = (Column, State, f64);
+type Exact<F> = (Column<F>, State, f64);
 
 /// Solves the column on `cells` cells.
 ///
 /// # Errors
 /// [`Stalled`] with the smallest residual if no way leads to a solution.
-pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stalled> {
+pub fn solve<F: FrictionLaw>(flow: Flow<F>, setting: Setting, cells: usize) -> Result<Solved<F>, Stalled> {
     let mut history = Vec::new();
     let mut last = Stalled::new(f64::INFINITY, 0);
     for trial in TRIALS.into_iter().map(Some).chain([None]) {
@@ -118,13 +119,13 @@ pub fn solve(flow: Flow, setting: Setting, cells: usize) -> Result<Solved, Stall
 
 /// The exact yield on a coarse mesh, at the given bed level and without the term that makes the equations change type: from
 /// the guess of a trial, or for `None` by some turns of the iteration, which is slow and goes where Newton does not.
-fn coarse(
-    flow: Flow,
+fn coarse<F: FrictionLaw>(
+    flow: Flow<F>,
     setting: Setting,
     trial: Option<(Floor, usize, f64)>,
     cells: usize,
     history: &mut Vec<f64>,
-) -> Result<(Column, State), Stalled> {
+) -> Result<(Column<F>, State), Stalled> {
     let open = Flow { cut: f64::INFINITY, lambda: 0.0, ..flow };
     // The amount of grains is settled last.
     let setting = Setting { reading: BedReading::Final, ..setting };
@@ -148,12 +149,17 @@ fn coarse(
 
 /// The coarse solution from that of grains which resist and spread more readily: small I_0 and b are what Newton's method
 /// finds hard.
-fn ease(flow: Flow, setting: Setting, cells: usize, history: &mut Vec<f64>) -> Result<(Column, State), Stalled> {
+fn ease<F: FrictionLaw>(
+    flow: Flow<F>,
+    setting: Setting,
+    cells: usize,
+    history: &mut Vec<f64>,
+) -> Result<(Column<F>, State), Stalled> {
     let (floor, size, friction) = TRIALS[0];
-    let (i_0, b) = (flow.friction.i_0, flow.dilatancy.b);
+    let (i_0, b) = (flow.friction.half_way(), flow.dilatancy.b);
     let eased = |share: f64| {
         let mut eased = flow;
-        eased.friction.i_0 = i_0 * (EASY.0 / i_0).max(1.0).powf(share);
+        eased.friction = flow.friction.with_half_way(i_0 * (EASY.0 / i_0).max(1.0).powf(share));
         eased.dilatancy.b = b * (EASY.1 / b).max(1.0).powf(share);
         eased
     };
@@ -167,13 +173,13 @@ fn ease(flow: Flow, setting: Setting, cells: usize, history: &mut Vec<f64>) -> R
 }
 
 /// From the coarse mesh to the wanted one, with the term, and to the wanted reading.
-fn refine(
-    flow: Flow,
+fn refine<F: FrictionLaw>(
+    flow: Flow<F>,
     setting: Setting,
     cells: usize,
-    (coarse, rough): &(Column, State),
+    (coarse, rough): &(Column<F>, State),
     history: &mut Vec<f64>,
-) -> Result<Exact, Stalled> {
+) -> Result<Exact<F>, Stalled> {
     let exact = Flow { lambda: 0.0, ..flow };
     // Some coarse solutions have locked or loose layers that are none of the flow: the balance of the layer knows.
     let estimate = mobile_volume(&coarse.flow, rough.tau_b, rough.sine);
@@ -218,13 +224,13 @@ fn refine(
 ///
 /// # Errors
 /// As [`Column::iterate`].
-pub fn iterate(
-    flow: Flow,
+pub fn iterate<F: FrictionLaw>(
+    flow: Flow<F>,
     setting: Setting,
     cells: usize,
     pace: &Pace,
     mut stop: impl FnMut(usize, f64) -> bool,
-) -> Result<Solved, Stalled> {
+) -> Result<Solved<F>, Stalled> {
     let mut history = Vec::new();
     let (mut column, guess) = Column::start(flow, setting, cells, REST);
     let mut state = column.iterate(guess, pace, &mut history, &mut stop)?;
@@ -235,7 +241,7 @@ pub fn iterate(
         change_of_type = column.change_of_type(&state);
     }
     // Where a flow has a moving layer, its grains carry mu_s P_p and more; in locked ones none does.
-    let yields = (0..column.mesh.cells()).any(|c| state.r(c) > column.flow.friction.mu_s);
+    let yields = (0..column.mesh.cells()).any(|c| state.r(c) > column.flow.friction.least());
     if !yields {
         return Err(Stalled {
             reason: Some(Reason::Locked(column.carried(&state))),
@@ -245,7 +251,7 @@ pub fn iterate(
     Ok(Solved { column, state, exact: None, history, change_of_type })
 }
 
-impl Column {
+impl<F: FrictionLaw> Column<F> {
     /// The same column with the exact yield.
     #[must_use]
     pub fn exact_yield(&self) -> Self {
@@ -282,7 +288,7 @@ impl Column {
         if self.floor == Floor::Yield {
             return Some(state.m);
         }
-        let mu_s = self.flow.friction.mu_s;
+        let mu_s = self.flow.friction.least();
         let c = (0..self.mesh.cells()).rev().find(|&c| state.r(c) > mu_s)?;
         if c + 1 == self.mesh.cells() {
             return None;

@@ -6,6 +6,7 @@ use super::flow::Flow;
 use super::mesh::Mesh;
 use super::newton::Column;
 use super::suspension::Meshes;
+use crate::closures::friction::FrictionLaw;
 use crate::closures::lid::Lid;
 
 /// Solid fraction of the moving layer in the first guess.
@@ -26,11 +27,11 @@ pub struct Guess {
     pub mobile: Option<f64>,
 }
 
-impl Column {
+impl<F: FrictionLaw> Column<F> {
     /// The mesh of `cells` cells for a flow, and a first guess on it: the grains shear at a share of the range of their
     /// friction wherever the stress is enough for that, and carry all of it elsewhere.
     #[must_use]
-    pub fn start(flow: Flow, setting: Setting, cells: usize, from: Guess) -> (Self, State) {
+    pub fn start(flow: Flow<F>, setting: Setting, cells: usize, from: Guess) -> (Self, State) {
         let room = setting.height - setting.level;
         let (tau_b, sine) = match (setting.tau_b, setting.sine) {
             (Some(tau_b), None) => (tau_b, (tau_b + lid_guess(&setting)) * flow.delta / room),
@@ -70,12 +71,12 @@ impl Column {
         for c in 0..n {
             let depth = m * mesh.middles[c];
             let total = tau_b + sine * depth + flow.fluid_weight(sine) * depth / MEAN_PHI;
-            let r = (law.mu_s + friction * (law.mu_2 - law.mu_s)).min(total / (cosine * depth));
+            let r = (law.least() + friction * (law.most() - law.least())).min(total / (cosine * depth));
             state.x[STRIDE * c + 3] = r;
             state.x[STRIDE * c + 4] = (total - r * cosine * depth).max(0.0).min(total);
             let node = (1.0 - m * mesh.nodes[c] / mobile).max(0.0);
             // The slip that carries the friction of the grains.
-            let push = 0.5 * law.mu_s;
+            let push = 0.5 * law.least();
             let linear = 18.3 * flow.nu;
             let drag = (linear * linear + 4.0 * 0.3 * push).sqrt();
             state.x[STRIDE * c + 1] = (drag - linear) / 0.6 * 0.5 * node.powf(1.5) + 1e-6;
@@ -98,7 +99,7 @@ impl Column {
     pub fn at_rest(&self, state: &State, s: f64, m: f64) -> (f64, f64) {
         let cosine = (1.0 - state.sine * state.sine).sqrt();
         let below = m - state.m;
-        let tau_p = self.flow.friction.mu_s * cosine * state.m + state.sine * below;
+        let tau_p = self.flow.friction.least() * cosine * state.m + state.sine * below;
         (tau_p / (cosine * m), s + self.flow.fluid_weight(state.sine) * below / self.flow.dilatancy.phi_max)
     }
 
@@ -125,7 +126,7 @@ impl Column {
             if ends && middle > last {
                 let (r, s) = (from.r(n - 1), from.s(n - 1));
                 let share = ((middle - last) / (1.0 - last)).min(1.0);
-                state.x[k] = r + share * (self.flow.friction.mu_s - r);
+                state.x[k] = r + share * (self.flow.friction.least() - r);
                 state.x[k + 1] = s;
                 if middle > 1.0 {
                     (state.x[k], state.x[k + 1]) = self.at_rest(from, s, m * mesh.middles[c]);
@@ -146,7 +147,7 @@ fn lid_guess(setting: &Setting) -> f64 {
     }
 }
 
-fn drive_guess(flow: &Flow, setting: &Setting, sine: f64, room: f64) -> f64 {
+fn drive_guess<F: FrictionLaw>(flow: &Flow<F>, setting: &Setting, sine: f64, room: f64) -> f64 {
     let whole = flow.fluid_weight(sine) * room;
     match setting.lid {
         Lid::ColebrookWhite(_) => 0.8 * whole,
@@ -156,8 +157,8 @@ fn drive_guess(flow: &Flow, setting: &Setting, sine: f64, room: f64) -> f64 {
 }
 
 /// Solid volume over the yield level, from the balance of the moving layer.
-pub(super) fn mobile_volume(flow: &Flow, tau_b: f64, sine: f64) -> f64 {
-    let hold = flow.friction.mu_s * (1.0 - sine * sine).max(0.0).sqrt();
+pub(super) fn mobile_volume<F: FrictionLaw>(flow: &Flow<F>, tau_b: f64, sine: f64) -> f64 {
+    let hold = flow.friction.least() * (1.0 - sine * sine).max(0.0).sqrt();
     let net = hold - sine * (1.0 / (flow.delta * MEAN_PHI) + 1.0);
     tau_b / net.max(0.2 * hold)
 }

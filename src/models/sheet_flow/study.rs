@@ -1,11 +1,12 @@
 //! What a sheet flow says of its studies.
 
 use super::SheetFlow;
+use crate::closures::friction::FrictionLaw;
 use crate::model::{Focus, Meshes, Number, ONE_KIND, Rung, Sizes, Smoothed, StudyPlan, number};
 use crate::models::yielding::{LAMBDAS, finest, regularised};
 use crate::result::quantity as q;
 
-pub(super) fn plan(flow: &SheetFlow, cells: usize) -> StudyPlan {
+pub(super) fn plan<F: FrictionLaw>(flow: &SheetFlow<F>, cells: usize) -> StudyPlan {
     let focus = focus(flow);
     let (rungs, exact) = focus.sizes.map(|sizes| (ladder(&sizes), sizes.exactly())).unwrap_or_default();
     StudyPlan { focus: Some(focus), rungs, finest: finest(8 * cells.max(300), exact) }
@@ -23,7 +24,7 @@ fn ladder(sizes: &Sizes) -> Vec<Rung> {
     [exact.to_vec(), newton, smoothed("iteration of the paper", "iteration", &[75, 150])].concat()
 }
 
-fn focus(flow: &SheetFlow) -> Focus {
+fn focus<F: FrictionLaw>(flow: &SheetFlow<F>) -> Focus {
     // The pseudo-time iteration needs a creep.
     const EXACT: &[&str] = &["model.method=newton", "regularisation.law=none", "regularisation.lambda="];
     // Under the exact yield the cells hold the moving grains only.

@@ -6,6 +6,7 @@
 
 use super::flow::Flow;
 use super::mesh::Mesh;
+use crate::closures::friction::FrictionLaw;
 use crate::numerics::dual::{Dual, Real};
 
 /// What the bed and the drive give.
@@ -64,8 +65,8 @@ pub struct Meshes {
 const SWEEPS: usize = 60;
 
 /// Goes up the layer of height `height`; `see` receives each node above the interface.
-pub fn march<T: Real>(
-    flow: &Flow,
+pub fn march<T: Real, F: FrictionLaw>(
+    flow: &Flow<F>,
     meshes: &Meshes,
     inflow: &Inflow<T>,
     height: T,
@@ -114,21 +115,21 @@ pub fn march<T: Real>(
 }
 
 /// Slope of the mixing length.
-fn growth<T: Real>(flow: &Flow, phi: T) -> T {
+fn growth<T: Real, F: FrictionLaw>(flow: &Flow<F>, phi: T) -> T {
     (-phi / flow.phi_l + 1.0) * flow.kappa
 }
 
 /// Shear rate and eddy viscosity.
-fn layer_shear<T: Real>(flow: &Flow, phi: T, length: T, stress: T) -> (T, T) {
+fn layer_shear<T: Real, F: FrictionLaw>(flow: &Flow<F>, phi: T, length: T, stress: T) -> (T, T) {
     let a = (-phi + 1.0) * length * length;
-    let (shear, _) = Flow::shear(stress, a, T::constant(1.0 / flow.nu));
+    let (shear, _) = Flow::<F>::shear(stress, a, T::constant(1.0 / flow.nu));
     (shear, a * shear.abs())
 }
 
 /// The solid fraction in the middle of the cell above `level`: a fixed point, whose derivatives are those of the implicit
 /// function.
-fn middle_fraction<T: Real>(flow: &Flow, level: &Level<T>, dz: T, stress: T) -> T {
-    fn image<T: Real>(flow: &Flow, (ln_phi, length): (T, T), (dz, stress): (T, T), phi: T) -> T {
+fn middle_fraction<T: Real, F: FrictionLaw>(flow: &Flow<F>, level: &Level<T>, dz: T, stress: T) -> T {
+    fn image<T: Real, F: FrictionLaw>(flow: &Flow<F>, (ln_phi, length): (T, T), (dz, stress): (T, T), phi: T) -> T {
         let Some(law) = flow.suspension else { return T::constant(0.0) };
         let length = length + growth(flow, phi) * dz * 0.5;
         let (_, eddy) = layer_shear(flow, phi, length, stress);

@@ -1,16 +1,17 @@
 //! The tables that only a two-fluid flow has.
 
-use crate::case::tables::Fluid;
-use crate::tables;
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
+use crate::case::tables::Fluid;
 use crate::case::tables::{SlopeDefinition, one_of};
 use crate::closures::dispersion::Dispersion;
-use crate::closures::drag::GrainDrag;
+use crate::closures::drag::DallavalleGrain;
 use crate::closures::kinetic::radial::PHI_MAX;
 use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
 use crate::closures::mixing_length::MixingLength;
+use crate::closures::role::Only;
+use crate::tables;
 
 /// Grains that collide.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -148,7 +149,7 @@ pub struct TwoFluidClosures {
     #[serde(default)]
     pub static_friction: StaticFriction,
     /// Drag between the phases.
-    pub drag: GrainDrag,
+    pub drag: Only<DallavalleGrain>,
     /// Mixing length of the turbulence.
     pub mixing_length: MixingLength,
     /// Grains that the turbulence carries.

@@ -12,6 +12,7 @@
 use super::face::Setting;
 use super::laws::Moving;
 use super::state::{Cell, FLUID, GRAINS, HEAT, LENGTH, LOGIT, SIZE};
+use crate::closures::kinetic::drag_work::Damping;
 use crate::numerics::dual::Real;
 
 /// What is known of the time derivatives of a cell: `rate X + past` for X = eps u, phi v, phi T.

@@ -1,6 +1,8 @@
 //! The equations that are solved, with their numbers.
 
-use crate::closures::kinetic::{Elastic, Granular};
+use crate::closures::kinetic::elastic::{johnson_jackson, none};
+use crate::closures::kinetic::static_friction::Threshold;
+use crate::closures::kinetic::{Elastic, Granular, Stresses};
 use crate::models::two_fluid::{FluidStress, State, TwoFluid};
 use crate::units::significant;
 
@@ -13,9 +15,10 @@ pub fn equations(flow: &TwoFluid) -> String {
         FluidStress::Whole => "ρ_f",
     };
     let elastic = match flow.elastic {
-        Elastic::None => "p_el = 0".to_owned(),
+        Elastic::None => none::INFO.equation.to_owned(),
         Elastic::JohnsonJackson(law) => format!(
-            "p_el = P₀ (φ - φ_rlp)³/(φ_max - φ)⁵ above φ_rlp,  P₀ = {} Pa, φ_rlp = {}, φ_max = {}",
+            "{},  P₀ = {} Pa, φ_rlp = {}, φ_max = {}",
+            johnson_jackson::INFO.equation,
             n(law.p_0),
             n(law.phi_rlp),
             n(flow.phi_max)
@@ -23,7 +26,7 @@ pub fn equations(flow: &TwoFluid) -> String {
     };
     let mu_s = n(flow.static_friction.mu_s(flow.mu_p));
     let stresses = match flow.granular {
-        Granular::MuI(law) => format!(
+        Granular::Inertial(law) => format!(
             "stresses      τ_p = μ(I) p,  p = p_el + ρ_p (b φ/(φ_max - φ))² (d u_p')²,  μ_s = {}, μ_2 = {}, I_0 = {}, b = {}\n",
             n(law.mu_s),
             n(law.mu_2),

@@ -14,6 +14,7 @@
 
 use super::laws::{Laws, Moving};
 use super::state::{Cell, FLUID, GRAINS, HEAT, LENGTH, LOGIT, RISE, SIZE, VOLUME};
+use crate::closures::mixing_length::Length;
 use crate::numerics::dual::Real;
 
 /// Half the heights of the two cells.

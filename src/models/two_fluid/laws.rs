@@ -1,7 +1,9 @@
 //! The laws of a two-fluid flow in units of its grains: length d, velocity V = ((rho_p/rho_f - 1) g d)^(1/2), time d/V, density
 //! rho_f, stress (rho_p - rho_f) g d = rho_f V^2, and the granular temperature in V^2.
 
+use crate::closures::dispersion::Spread;
 use crate::closures::drag::DallavalleGrain;
+use crate::closures::kinetic::static_friction::Threshold;
 use crate::closures::kinetic::{Elastic, Granular, Inertial, JohnsonJackson, Kinetic};
 use crate::closures::mixing_length::{LowSubmergence, MixingLength};
 use crate::models::two_fluid::{FluidStress, TwoFluid};
@@ -72,7 +74,7 @@ impl Laws {
         // rho_f g sin(beta), and rho_p g sin(beta), over (rho_p - rho_f) g per volume; the second by the ratio of densities.
         let drive = flow.beta.sin() / (ratio - 1.0);
         let moving = match flow.granular {
-            Granular::MuI(law) => Moving::Inertial(law),
+            Granular::Inertial(law) => Moving::Inertial(law),
             Granular::GarzoDufty(law) => Moving::Kinetic(law.kinetic(flow.e, flow.mu_p)),
             Granular::FrictionalCollisional(law) => Moving::Kinetic(law.kinetic(flow.e, flow.mu_p)),
         };

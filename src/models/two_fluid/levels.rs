@@ -5,6 +5,8 @@ use super::laws::{Laws, Moving};
 use super::start::middles;
 use super::state::{Cell, Unknowns};
 use super::system::{Column, Memory};
+use crate::closures::kinetic::radial::AtContact;
+use crate::closures::mixing_length::Length;
 
 /// Below this solid fraction there are no grains to speak of.
 pub const NONE: f64 = 1e-6;

@@ -11,7 +11,7 @@ use super::profile::profile;
 use super::state::Unknowns;
 use super::steady;
 use super::system::{Column, Spacing};
-use crate::closures::friction::mu_i;
+use crate::closures::friction::INERTIAL_RANGE;
 use crate::closures::kinetic::{Granular, garzo_dufty};
 use crate::models::exact::bed_results::closure_name;
 use crate::models::exact::{balance, outcome};
@@ -216,14 +216,14 @@ fn balances(column: &Column, levels: &Levels) -> Vec<Balance> {
 fn validity(flow: &TwoFluid, column: &Column, levels: &Levels) -> Vec<Validity> {
     let mut found = Vec::new();
     match flow.granular {
-        Granular::MuI(_) => {
+        Granular::Inertial(_) => {
             let inertial = levels
                 .cells
                 .iter()
                 .filter(|level| level.phi > NONE)
                 .map(|level| level.shear.abs() * (column.laws.ratio / (level.pressure + level.elastic)).sqrt())
                 .fold(0.0, f64::max);
-            found.extend(outside(closure_name(flow.granular.info()), &mu_i::INERTIAL_RANGE, inertial));
+            found.extend(outside(closure_name(flow.granular.info()), &INERTIAL_RANGE, inertial));
         }
         Granular::GarzoDufty(_) | Granular::FrictionalCollisional(_) => {
             let range = &garzo_dufty::RESTITUTION_RANGE;

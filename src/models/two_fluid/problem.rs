@@ -4,8 +4,8 @@ use super::case::{FluidStress, State, TwoFluidTables};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::dispersion::Dispersion;
-use crate::closures::drag::{DallavalleGrain, GrainDrag};
-use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
+use crate::closures::drag::DallavalleGrain;
+use crate::closures::kinetic::{Elastic, Granular, StaticFriction, Stresses};
 use crate::closures::mixing_length::{self, BelowPacked, MixingLength};
 use crate::closures::{Info, drag};
 use crate::model::{
@@ -116,7 +116,7 @@ impl Model for OnMesh<TwoFluid> {
         {
             faults.push(("closures.elastic.phi_rlp", below("phi_rlp", law.phi_rlp, bed.phi_max)));
         }
-        if let Granular::MuI(law) = closures.granular
+        if let Granular::Inertial(law) = closures.granular
             && law.mu_2 <= law.mu_s
         {
             faults.push(("closures.granular.mu_2", Fault::FrictionFalls { mu_s: law.mu_s, mu_2: law.mu_2 }));
@@ -124,9 +124,12 @@ impl Model for OnMesh<TwoFluid> {
         if let MixingLength::LiSawamoto(law) = closures.mixing_length
             && law.below_packed == BelowPacked::Zero
         {
-            let (law, allowed) =
-                ("li-sawamoto with below_packed = \"zero\"", vec![mixing_length::li_sawamoto::INFO.law]);
-            let fault = Fault::LawMismatch { family: "mixing_length", law, model: Self::INFO.name.into(), allowed };
+            let fault = Fault::LawMismatch {
+                family: "mixing_length".into(),
+                law: "li-sawamoto with below_packed = \"zero\"".into(),
+                model: Self::INFO.name.into(),
+                allowed: vec![mixing_length::li_sawamoto::INFO.law.into()],
+            };
             faults.push(("closures.mixing_length.below_packed", fault));
         }
         let depth = match (flow.depth, flow.shields) {
@@ -150,7 +153,6 @@ impl Model for OnMesh<TwoFluid> {
         if flow.oscillation.is_some() && tables.model.state == State::Steady {
             faults.push(("flow.oscillation", Fault::NeedsTime));
         }
-        let GrainDrag::DallavalleGrain(drag) = closures.drag;
         let problem = TwoFluid {
             rho_f: fluid.density,
             eta: fluid.viscosity,
@@ -169,7 +171,7 @@ impl Model for OnMesh<TwoFluid> {
             granular: closures.granular,
             elastic: closures.elastic,
             static_friction: closures.static_friction,
-            drag,
+            drag: closures.drag.0,
             mixing_length: closures.mixing_length,
             dispersion: closures.dispersion,
             temperature_floor: regularisation.granular_temperature,

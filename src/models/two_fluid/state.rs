@@ -9,6 +9,7 @@
 //! The logit cannot leave (0, phi_max), nor the logarithm the positive numbers: nothing is clipped.
 
 use super::laws::{Laws, Moving};
+use crate::closures::mixing_length::Length;
 use crate::numerics::dual::{Dual, Real};
 
 /// Unknowns of a cell and of the face above it.

@@ -28,6 +28,7 @@ mod outcome;
 #[cfg(test)]
 mod tests;
 
+use crate::closures::mixture_viscosity::RelativeViscosity;
 pub(in crate::models) use outcome::viscosity_text;
 pub use outcome::{equations, run};
 

@@ -1,13 +1,33 @@
 //! The case of the closed form.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::{equations, run};
-use crate::case::tables::{Bed, BedClosures, Fluid, Grains, Grid, LaminarFlow, OuriemiModel};
-use crate::closures::friction;
+use crate::case::tables::{Bed, Fluid, Grains, Grid, only};
 use crate::model::{Description, Effort, Faults, Flow, LaminarScene, Model, ModelInfo, Offer, OnMesh, Solve, Term};
-use crate::models::exact::bed::{LaminarBed, laminar_bed};
+use crate::models::exact::ExactKind;
+use crate::models::exact::bed::{BedClosures, Form, LaminarBed, LaminarFlow, laminar_bed};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
+
+/// The model: Ouriemi's bed in closed form.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct OuriemiModel {
+    /// What kind of model: this one is a closed form.
+    pub kind: ExactKind,
+    /// Newtonian fluid over a Coulomb bed between two planes.
+    pub solution: OuriemiSolution,
+    /// One velocity for fluid and grains, or two.
+    pub form: Form,
+}
+
+only!(
+    /// Newtonian fluid over a Coulomb bed between two planes.
+    OuriemiSolution,
+    Ouriemi
+);
 
 tables! {
     /// Newtonian fluid over a Coulomb bed between two planes, in closed form.
@@ -36,9 +56,8 @@ impl Model for OnMesh<LaminarBed> {
 
     fn build(tables: &OuriemiTables, faults: &mut Faults) -> Option<Self> {
         let OuriemiTables { fluid, grains, bed, flow, closures, grid, .. } = tables;
-        let laws = [friction::coulomb::INFO.law];
-        let form = tables.model.form;
-        let problem = laminar_bed((fluid, grains, bed, flow, closures), form, Self::INFO.name, &laws, faults)?;
+        let parts = (fluid, grains, bed, flow, closures.into());
+        let problem = laminar_bed(parts, tables.model.form, Self::INFO.name, faults)?;
         Some(Self { problem, cells: grid.cells })
     }
 

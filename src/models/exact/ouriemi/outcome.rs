@@ -1,7 +1,7 @@
 //! Ouriemi's bed in SI: profile, numbers, balances, and the equations with their numbers.
 
 use super::{Scaled, Solution, solve};
-use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::models::exact::bed::{Drive, LaminarBed};
 use crate::models::exact::bed_results::BedNumbers;
 use crate::models::exact::{Column, balance, outcome, tabulate};
@@ -157,10 +157,15 @@ pub fn equations(bed: &LaminarBed) -> String {
     text
 }
 
+/// What the law of the viscosity multiplies that of the fluid by: `η_e = η (...)`, with the solid fraction at which it diverges.
 pub(in crate::models) fn viscosity_text(bed: &LaminarBed) -> String {
-    match bed.viscosity {
-        MixtureViscosity::Clear => "1".into(),
-        MixtureViscosity::Einstein => "1 + 5/2 φ".into(),
-        MixtureViscosity::Boyer(law) => format!("1 + 5/2 φ (1 - φ/{})⁻¹", significant(law.phi_max, 4)),
+    let equation = bed.viscosity.info().equation;
+    match equation.strip_prefix("η_e = η") {
+        Some("") => "1".into(),
+        Some(factor) => {
+            let factor = factor.trim_start_matches(" (").strip_suffix(')').unwrap_or(factor);
+            factor.replace("φ_max", &significant(bed.viscosity.phi_max(), 4))
+        }
+        None => equation.into(),
     }
 }

@@ -14,17 +14,8 @@ use serde::{Deserialize, Serialize};
 use crate::closures::{Info, Range, Standing};
 use crate::numerics::dual::Real;
 
-/// Catalogue entries.
-pub static NONE: Info = Info {
-    family: "elastic",
-    law: "none",
-    equation: "p_el = 0",
-    source: "the neutral law of its family",
-    ranges: &[],
-    standing: Standing::Validated,
-};
-/// See [`NONE`].
-pub static JOHNSON_JACKSON: Info = Info {
+/// Catalogue entry.
+pub static INFO: Info = Info {
     family: "elastic",
     law: "johnson-jackson",
     equation: "p_el = P₀ (φ - φ_rlp)³/(φ_max - φ)⁵ above φ_rlp",
@@ -32,33 +23,6 @@ pub static JOHNSON_JACKSON: Info = Info {
     ranges: &[Range { variable: "phi", min: 0.0, max: 0.635 }],
     standing: Standing::Validated,
 };
-
-/// Pressure of enduring contacts.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "law", rename_all = "kebab-case")]
-pub enum Elastic {
-    /// Grains touch in collisions only.
-    None,
-    /// A packing that resists from random loose packing on.
-    JohnsonJackson(JohnsonJackson),
-}
-
-impl Elastic {
-    /// Catalogue entry of the law.
-    #[must_use]
-    pub fn info(&self) -> &'static Info {
-        match self {
-            Self::None => &NONE,
-            Self::JohnsonJackson(_) => &JOHNSON_JACKSON,
-        }
-    }
-}
-
-impl Default for Elastic {
-    fn default() -> Self {
-        Self::JohnsonJackson(JohnsonJackson { p_0: p_0(), phi_rlp: phi_rlp() })
-    }
-}
 
 /// A packing that resists from random loose packing on.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -79,6 +43,13 @@ fn p_0() -> f64 {
 
 fn phi_rlp() -> f64 {
     0.57
+}
+
+impl Default for JohnsonJackson {
+    /// As published.
+    fn default() -> Self {
+        Self { p_0: p_0(), phi_rlp: phi_rlp() }
+    }
 }
 
 impl JohnsonJackson {
@@ -109,10 +80,5 @@ mod tests {
         assert!(law.pressure(0.635 - 1e-6, 1e-6) > 1e24);
         // It starts without a kink, like a cube.
         assert_relative_eq!(law.pressure(0.5702, 0.0648) / law.pressure(0.5701, 0.0649), 8.0, max_relative = 1e-2);
-    }
-
-    #[test]
-    fn what_is_left_out_is_as_published() {
-        assert_eq!(toml::from_str::<Elastic>("law = \"johnson-jackson\"").unwrap(), Elastic::default());
     }
 }

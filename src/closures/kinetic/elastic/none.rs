@@ -1,0 +1,19 @@
+//! The neutral law: grains touch in collisions only.
+
+use schemars::JsonSchema;
+
+use crate::closures::{Info, Standing};
+
+/// Catalogue entry.
+pub static INFO: Info = Info {
+    family: "elastic",
+    law: "none",
+    equation: "p_el = 0",
+    source: "the neutral law of its family",
+    ranges: &[],
+    standing: Standing::Validated,
+};
+
+/// Grains touch in collisions only.
+#[derive(JsonSchema)]
+pub struct None;
