@@ -8,6 +8,7 @@
 mod advice;
 pub mod case;
 mod direction;
+mod error;
 mod exchange;
 mod felt;
 mod figures;
@@ -24,6 +25,7 @@ mod tests;
 mod theory;
 
 pub use case::FluidScheme;
+pub use error::{CoupledError, CoupledFault};
 pub use exchange::Exchange;
 pub use felt::{Dragged, Felt};
 pub use problem::{Coupled, Surface};

@@ -5,6 +5,7 @@ use crate::case::Fault;
 use crate::case::tables::{BagnoldModel, Film, FilmClosures, FilmFlow, Grains, Grid};
 use crate::closures::friction::{self, Friction, MuI};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::models::BedFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
@@ -66,7 +67,8 @@ impl Model for OnMesh<GranularFilm> {
             }
         };
         if friction.mu_2 <= friction.mu_s {
-            faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: friction.mu_s, mu_2: friction.mu_2 }));
+            faults
+                .push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s: friction.mu_s, mu_2: friction.mu_2 }));
         }
         let problem = GranularFilm {
             rho_p: grains.density,

@@ -8,6 +8,8 @@ use crate::closures::drag::{self, CarmanKozeny, Drag};
 use crate::closures::friction::{self, Coulomb, Friction, MuIv};
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
+use crate::models::BedFault;
+use crate::models::exact::ExactFault;
 
 /// What drives the flow.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,25 +143,25 @@ pub(in crate::models) fn laminar_bed(
 ) -> Option<LaminarBed> {
     let (fluid, grains, bed, flow, closures) = tables;
     if bed.level >= flow.height {
-        faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
+        faults.push(("bed.level", BedFault::NoRoomForFlow { level: bed.level, height: flow.height }));
     }
     if bed.level < grains.diameter {
-        faults.push(("bed.level", Fault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
+        faults.push(("bed.level", BedFault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
     }
     if grains.density <= fluid.density {
-        faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+        faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
     }
     if let MixtureViscosity::Boyer(law) = closures.mixture_viscosity
         && bed.phi >= law.phi_max
     {
-        faults.push(("bed.phi", Fault::Jammed { phi: bed.phi, phi_max: law.phi_max }));
+        faults.push(("bed.phi", ExactFault::Jammed { phi: bed.phi, phi_max: law.phi_max }));
     }
     let mismatch = |family, law, model: String, allowed| Fault::LawMismatch { family, law, model, allowed };
     let (friction, rise) = match closures.friction {
         Friction::Coulomb(law) if laws.contains(&friction::coulomb::INFO.law) => (Some(law), None),
         Friction::MuIv(law) if laws.contains(&friction::mu_iv::INFO.law) => {
             if law.mu_2 <= law.mu_s {
-                faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: law.mu_s, mu_2: law.mu_2 }));
+                faults.push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s: law.mu_s, mu_2: law.mu_2 }));
             }
             (Some(Coulomb { mu_s: law.mu_s }), Some(law))
         }

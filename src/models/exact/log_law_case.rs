@@ -6,6 +6,7 @@ use crate::case::tables::{Fluid, Grid, LogLawModel, WallClosures, WallFlow};
 use crate::closures::mixing_length::{self, MixingLength, Prandtl};
 use crate::closures::wall::{self, Rough, Wall};
 use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve};
+use crate::models::exact::ExactFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
@@ -65,7 +66,7 @@ impl Model for OnMesh<RoughWall> {
         };
         let Wall::Rough(wall) = closures.wall;
         if wall.roughness_length() >= flow.height {
-            let fault = Fault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
+            let fault = ExactFault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
             faults.push(("closures.wall.k_s", fault));
         }
         let problem = RoughWall {

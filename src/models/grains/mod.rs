@@ -2,8 +2,10 @@
 
 pub mod bed;
 pub mod case;
+mod error;
 pub mod impact;
 mod problem;
 pub mod trials;
 
+pub use error::ImpactError;
 pub use problem::{Impact, Trial};

@@ -13,6 +13,7 @@ mod cavity_outcome;
 pub mod dual;
 pub mod duct;
 pub mod element;
+mod error;
 pub mod fit;
 pub mod full;
 pub mod mesh;
@@ -26,5 +27,6 @@ mod study;
 
 pub use case::Method;
 pub use cavity_outcome::{equations as cavity_equations, run as run_cavity};
+pub use error::{SectionError, SectionFault};
 pub use outcome::{equations, run};
 pub use problem::{CavityFlow, Contents, Duct, DuctBed, DuctFlow, Outline, SectionMethod};

@@ -9,6 +9,7 @@ pub mod bed;
 pub mod case;
 pub mod column;
 mod equations;
+mod error;
 mod figures;
 pub mod flow;
 pub mod iteration;
@@ -28,5 +29,6 @@ mod tests;
 
 pub use case::{BedReading, SheetMethod};
 pub use equations::equations;
+pub use error::{SheetFlowError, SheetFlowFault};
 pub use outcome::run;
 pub use problem::SheetFlow;

@@ -17,6 +17,8 @@ use crate::model::{
     COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
     Term, TermTest, TurbulentScene,
 };
+use crate::models::sheet_flow::SheetFlowFault;
+use crate::models::{BedFault, RegularisationSize};
 use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
@@ -99,13 +101,13 @@ impl Model for OnMesh<SheetFlow> {
     fn build(tables: &SheetFlowTables, faults: &mut Faults) -> Option<Self> {
         let SheetFlowTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
         if bed.level >= flow.height {
-            faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
+            faults.push(("bed.level", BedFault::NoRoomForFlow { level: bed.level, height: flow.height }));
         }
         if bed.level < grains.diameter {
-            faults.push(("bed.level", Fault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
+            faults.push(("bed.level", BedFault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
         }
         if grains.density <= fluid.density {
-            faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+            faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
         let dilatancy = match closures.dilatancy {
             Dilatancy::PhiI(law) => law,
@@ -119,7 +121,8 @@ impl Model for OnMesh<SheetFlow> {
         if let MixtureViscosity::Boyer(law) = closures.mixture_viscosity
             && law.phi_max < dilatancy.phi_max
         {
-            let fault = Fault::PackedBeyond { law: "the viscosity", phi_max: law.phi_max, bed: dilatancy.phi_max };
+            let fault =
+                SheetFlowFault::PackedBeyond { law: "the viscosity", phi_max: law.phi_max, bed: dilatancy.phi_max };
             faults.push(("closures.mixture_viscosity.phi_max", fault));
         }
         let drives: Vec<String> = [flow.shields, flow.u_star, flow.slope]
@@ -154,7 +157,7 @@ impl Model for OnMesh<SheetFlow> {
         if let Some(MuI { mu_s, mu_2, .. }) = friction
             && mu_2 <= mu_s
         {
-            faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s, mu_2 }));
+            faults.push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s, mu_2 }));
         }
         let drag = match closures.drag {
             Drag::Dallavalle(law) => Some(law),
@@ -174,7 +177,8 @@ impl Model for OnMesh<SheetFlow> {
         if let Some(law) = mixing_length
             && (law.phi_max < dilatancy.phi_max || law.below_packed == BelowPacked::Zero)
         {
-            let fault = Fault::PackedBeyond { law: "the mixing length", phi_max: law.phi_max, bed: dilatancy.phi_max };
+            let fault =
+                SheetFlowFault::PackedBeyond { law: "the mixing length", phi_max: law.phi_max, bed: dilatancy.phi_max };
             faults.push(("closures.mixing_length.phi_max", fault));
         }
         let lambda = match (regularisation.law, regularisation.lambda) {
@@ -182,13 +186,12 @@ impl Model for OnMesh<SheetFlow> {
             (SheetSmoothing::Simple, Some(lambda)) => Some(lambda),
             (law, given) => {
                 let exact = law == SheetSmoothing::None;
-                faults
-                    .push(("regularisation", Fault::RegularisationSize { given: usize::from(given.is_some()), exact }));
+                faults.push(("regularisation", RegularisationSize { given: usize::from(given.is_some()), exact }));
                 None
             }
         };
         if tables.model.method == SheetMethod::Iteration && lambda == Some(0.0) {
-            faults.push(("model.method", Fault::IterationNeedsCreep));
+            faults.push(("model.method", SheetFlowFault::IterationNeedsCreep));
         }
         let (lambda, sine) = (lambda?, sine.map_or(Some(None), |sine| sine.map(Some))?);
         let problem = SheetFlow {

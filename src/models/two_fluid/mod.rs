@@ -8,6 +8,7 @@
 pub mod case;
 pub mod cell;
 mod equations;
+mod error;
 pub mod face;
 mod figures;
 mod in_time;
@@ -29,5 +30,6 @@ pub mod transient;
 
 pub use case::{CollidingGrains, FluidStress, State};
 pub use equations::equations;
+pub use error::{TwoFluidError, TwoFluidFault};
 pub use outcome::run;
 pub use problem::TwoFluid;
