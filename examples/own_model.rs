@@ -11,7 +11,7 @@ use bedload::cli;
 use bedload::closures::{Info, Standing};
 use bedload::model::{Focus, Meshes, ONE_KIND, StudyPlan, number};
 use bedload::prelude::*;
-use bedload::result::quantity as q;
+use bedload::result::{Class, quantity as q};
 use bedload::study::{Conducted, Observer, Settings, conduct, converge, sweep};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -99,6 +99,57 @@ bedload::tables! {
     }
 }
 
+/// Cells times the exponent n below which the velocity of the surface is wrong by more than 1 %.
+const FEWEST: f64 = 2.0;
+/// Fastest flow [m/s]: about a third of the velocity of sound in water.
+const FASTEST: f64 = 500.0;
+
+/// A fault of the example's own.
+#[derive(Debug, thiserror::Error)]
+#[error("{cells} cells do not resolve a profile this steep")]
+pub struct TooCoarse {
+    /// cells of the case
+    pub cells: usize,
+    /// fewest cells
+    pub least: f64,
+}
+
+impl CaseFault for TooCoarse {
+    fn code(&self) -> &'static str {
+        "too-coarse"
+    }
+
+    fn allowed(&self) -> Option<String> {
+        Some(format!("at least {}", self.least))
+    }
+
+    fn hint(&self) -> Option<String> {
+        Some("the smaller n is, the steeper is the profile at the wall".into())
+    }
+}
+
+/// A failure of the example's own.
+#[derive(Debug, thiserror::Error)]
+#[error("the film would flow at {velocity_m_s:.0} m/s: above {FASTEST} m/s no fluid is incompressible")]
+pub struct Compressible {
+    /// velocity of the surface [m/s]
+    pub velocity_m_s: f64,
+}
+
+impl MethodError for Compressible {
+    fn code(&self) -> &'static str {
+        "compressible"
+    }
+
+    fn class(&self) -> Class {
+        Class::Unphysical
+    }
+
+    fn hint(&self) -> String {
+        "a thinner film (flow.height), or a smaller flow.sine".into()
+    }
+}
+
 /// The film. All values SI.
 #[derive(Clone, Copy, Debug)]
 pub struct Film {
@@ -116,8 +167,12 @@ impl Model for Film {
     const INFO: ModelInfo = ModelInfo::new("thin-film");
     type Tables = FilmTables;
 
-    fn build(tables: &FilmTables, _: &mut Faults) -> Option<Self> {
+    fn build(tables: &FilmTables, faults: &mut Faults) -> Option<Self> {
         let FilmTables { fluid, flow, closures, grid, .. } = tables;
+        let Viscosity::Power { n, .. } = closures.viscosity;
+        if grid.cells as f64 * n < FEWEST {
+            faults.push(("grid.cells", TooCoarse { cells: grid.cells, least: (FEWEST / n).ceil() }));
+        }
         let pull = 9.81 * fluid.density * flow.sine;
         Some(Self { fluid: *fluid, height: flow.height, pull, law: closures.viscosity, cells: grid.cells })
     }
@@ -132,6 +187,9 @@ impl Solve for Film {
             let tau = self.pull * (self.height - (k as f64 + 0.5) * dz);
             u.push(u[k] + dz * self.law.shear_rate(tau, self.fluid.viscosity));
             z.push((k + 1) as f64 * dz);
+        }
+        if u[self.cells] > FASTEST {
+            return Err(Compressible { velocity_m_s: u[self.cells] }.into());
         }
         let discharge: f64 = u.windows(2).map(|pair| 0.5 * dz * (pair[0] + pair[1])).sum();
         let mut outcome = Outcome::stopped();
@@ -176,7 +234,8 @@ pub fn registry() -> Registry {
     builtin().with(Entry::of::<Film>())
 }
 
-struct Nobody;
+/// Who waits for no study.
+pub struct Nobody;
 
 impl Observer for Nobody {
     fn stop(&self) -> bool {

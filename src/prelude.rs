@@ -1,11 +1,12 @@
 //! What a user of the library writes with: `use bedload::prelude::*`. Not used inside.
 
-pub use crate::case::{Case, CaseError, Tables};
+pub use crate::case::{Case, CaseError, CaseFault, Tables};
 pub use crate::model::{
     Checked, Description, Entry, Faults, Model, ModelInfo, OnMesh, Problem, Registry, Simulation, Solve, checked, read,
 };
 pub use crate::models::builtin;
 pub use crate::result::{
-    Context, Failure, Outcome, Profile, Quiet, Results, Series, Snapshot, Status, Watch, quantity,
+    Context, Failure, MethodError, Outcome, Profile, Quiet, Results, Series, Snapshot, SolveError, Status, Watch,
+    quantity,
 };
 pub use crate::tables;

@@ -13,7 +13,7 @@ use crate::model::{self, Flow, Offer, Registry, TermTest};
 use crate::result::Context;
 
 use crate::result::quantity as q;
-use crate::result::{Failure, Results};
+use crate::result::{Failure, Results, SolveError, codes};
 use crate::units::significant;
 
 /// A number that describes the scene.
@@ -82,33 +82,48 @@ pub enum AdviseError {
         /// the model
         model: String,
     },
-    /// there is no such flow
-    #[error("there is nothing to advise on: {reason}")]
-    NoFlow {
-        /// why
-        reason: String,
+    /// there is no such flow: its own model finds none
+    #[error("there is nothing to advise on: {0}")]
+    NoFlow(#[source] SolveError),
+    /// there is no such flow: no bed stays at rest
+    #[error(
+        "there is nothing to advise on: no bed rests on this slope: what pulls grains and water down it is {} of what friction holds",
+        significant(*share, 3)
+    )]
+    NoBed {
+        /// what pulls grains and water down the slope over what friction holds
+        share: f64,
     },
-    /// the case of the advised model is refused, or fails
-    #[error("no case of {kind} serves this scene: {reason}")]
-    NoCase {
+    /// the case of the advised model is refused
+    #[error("no case of {kind} serves this scene: {}", first(error))]
+    Refused {
         /// the model
         kind: &'static str,
-        /// what its case says
-        reason: String,
+        /// what is wrong with its case
+        #[source]
+        error: Box<CaseError>,
+    },
+    /// the case of the advised model fails
+    #[error("no case of {kind} serves this scene: {error}")]
+    Fails {
+        /// the model
+        kind: &'static str,
+        /// why
+        #[source]
+        error: SolveError,
     },
 }
 
-impl AdviseError {
-    /// Stable identifier, as in the answer of `--json`.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Case(_) => "case",
-            Self::OneModel { .. } => "one-model",
-            Self::NoFlow { .. } => "no-flow",
-            Self::NoCase { .. } => "no-case",
-        }
-    }
+codes!(AdviseError {
+    Self::Case(_) => "case",
+    Self::OneModel { .. } => "one-model",
+    Self::NoFlow(_) | Self::NoBed { .. } => "no-flow",
+    Self::Refused { .. } | Self::Fails { .. } => "no-case",
+});
+
+/// The first thing that is wrong with a case.
+fn first(error: &CaseError) -> String {
+    error.reports().into_iter().next().map(|report| report.message).unwrap_or_default()
 }
 
 impl AdviseError {
@@ -117,8 +132,8 @@ impl AdviseError {
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Case(_) | Self::OneModel { .. } => "give a case of a steady flow over grains",
-            Self::NoFlow { .. } => "lower the drive or the slope",
-            Self::NoCase { .. } => "a smaller --tolerance asks for the next better model",
+            Self::NoFlow(_) | Self::NoBed { .. } => "lower the drive or the slope",
+            Self::Refused { .. } | Self::Fails { .. } => "a smaller --tolerance asks for the next better model",
         }
     }
 }
@@ -126,10 +141,10 @@ impl AdviseError {
 /// Advice for the scene of `case` with `overrides`: terms that change the transport rate by less than `tolerance` can go.
 ///
 /// # Errors
-/// [`AdviseError::Case`]; [`AdviseError::OneModel`] for cases that are no scene; [`AdviseError::NoFlow`].
+/// [`AdviseError::Case`]; [`AdviseError::OneModel`] for cases that are no scene; [`AdviseError::NoFlow`] and [`AdviseError::NoBed`].
 pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: f64) -> Result<Advice, AdviseError> {
     let (_, problem) = registry.load(case, overrides).map_err(Box::new)?;
-    let no_flow = |failure: Failure| AdviseError::NoFlow { reason: failure.error.to_string() };
+    let no_flow = |failure: Failure| AdviseError::NoFlow(failure.error);
     let Some(mut flow) = problem.solver().flow().map_err(no_flow)? else {
         return Err(AdviseError::OneModel { model: problem.kind.into() });
     };
@@ -138,11 +153,7 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
         Flow::Laminar(bed) => laminar::numbers(bed, scene.solve(&[]).as_ref()),
         Flow::Turbulent(bed) if bed.theta.is_finite() && bed.weight() < 1.0 => turbulent::numbers(bed),
         Flow::Turbulent(bed) => {
-            let share = significant(bed.weight(), 3);
-            let reason = format!(
-                "no bed rests on this slope: what pulls grains and water down it is {share} of what friction holds"
-            );
-            return Err(AdviseError::NoFlow { reason });
+            return Err(AdviseError::NoBed { share: bed.weight() });
         }
     };
     let mut terms = Vec::new();
@@ -166,19 +177,18 @@ impl Advice {
     /// The text of a case file of the least model: `None` where the case that was given is one.
     ///
     /// # Errors
-    /// [`AdviseError::NoCase`] if that model refuses the scene.
+    /// [`AdviseError::Refused`] if that model refuses the scene, [`AdviseError::Fails`] if it finds no flow.
     pub fn case(&self, registry: &Registry) -> Result<Option<String>, AdviseError> {
         let Some(overrides) = &self.least.overrides else { return Ok(None) };
         let title = format!("case.title=The least model of a scene: {}", self.least.kind);
         let overrides = [&overrides[..], &[title]].concat();
-        let (case, problem) = registry.load(self.least.template, &overrides).map_err(|error| {
-            let reason = error.reports().into_iter().next().map(|r| r.message).unwrap_or_default();
-            AdviseError::NoCase { kind: self.least.kind, reason }
-        })?;
+        let kind = self.least.kind;
+        let (case, problem) = registry
+            .load(self.least.template, &overrides)
+            .map_err(|error| AdviseError::Refused { kind, error: error.into() })?;
         // A continuum takes milliseconds: what is written has a solution.
         if !problem.stochastic {
-            let no_case =
-                |failure: Failure| AdviseError::NoCase { kind: self.least.kind, reason: failure.error.to_string() };
+            let no_case = |failure: Failure| AdviseError::Fails { kind, error: failure.error };
             Context::quiet(|context| problem.run(context)).map_err(no_case)?;
         }
         // The claims of the template are not those of this scene.

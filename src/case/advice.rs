@@ -1,47 +1,35 @@
 //! What to do about a fault: what would be allowed, and a hint.
 
 use super::fault::Fault;
+use super::violation::CaseFault;
 use crate::units::UnitError;
 
-impl Fault {
-    /// What is allowed there.
-    #[must_use]
-    pub fn allowed(&self) -> Option<String> {
+impl CaseFault for Fault {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn allowed(&self) -> Option<String> {
         match self {
             Self::Unknown { allowed, .. }
             | Self::NotUsed { allowed, .. }
             | Self::UnknownWord { allowed, .. }
             | Self::LawMismatch { allowed, .. }
             | Self::Drives { allowed, .. } => Some(allowed.join(", ")),
-            Self::RegularisationSize { .. } => {
-                Some("one of lambda, lambda_scaled with a law; neither with law = \"none\"".into())
-            }
             Self::Missing { allowed, .. } | Self::NotFinite { allowed, .. } | Self::OutOfRange { allowed, .. } => {
                 Some(allowed.clone())
             }
             Self::WrongType { expected, .. } => Some(expected.clone()),
             Self::Unit { unit, .. } if unit == "1" => Some("a pure number".into()),
             Self::Unit { unit, .. } => Some(format!("a number in {unit}, or a text such as \"1 {unit}\"")),
-            Self::Surfaces { .. } => Some("one of height, depth".into()),
-            Self::NoRoomForFlow { height, .. } => Some(format!("more than 0 and less than {height} m")),
-            Self::Floating { fluid, .. } => Some(format!("more than {fluid} kg/m3")),
-            Self::Jammed { phi_max, .. } => Some(format!("less than {phi_max}")),
-            Self::PackedBeyond { bed, .. } => Some(format!("at least {bed}; no below_packed = \"zero\"")),
-            Self::ThinnerThanAGrain { diameter, .. } => Some(format!("at least {diameter} m")),
-            Self::FrictionFalls { mu_s, .. } => Some(format!("more than {mu_s}")),
             Self::TooSteep { definition: "sine", .. } => Some("less than 1".into()),
             Self::TooSteep { .. } => Some("less than 90 deg".into()),
-            Self::RoughnessAboveFlow { height, .. } => Some(format!("k_s less than {} m", 30.0 * height)),
-            Self::Slender { low, high, .. } => Some(format!("{low} to {high} heights")),
-            Self::DualIsExact => Some("newton; first-order with regularisation.law = \"none\"".into()),
             Self::TooLarge { limit } => Some(format!("at most {limit} bytes")),
             _ => None,
         }
     }
 
-    /// What to do about it.
-    #[must_use]
-    pub fn hint(&self) -> Option<String> {
+    fn hint(&self) -> Option<String> {
         let meant = |nearest: &Option<String>| nearest.as_ref().map(|n| format!("did you mean \"{n}\"?"));
         match self {
             Self::NoSuchCase { nearest, .. } => {
@@ -70,14 +58,6 @@ impl Fault {
             Self::Empty | Self::Binary { .. } | Self::NotUtf8 { .. } => {
                 Some("`bedload new` writes a case to start from".into())
             }
-            Self::Floating { .. } => Some("grains.density must exceed fluid.density".into()),
-            Self::IterationNeedsCreep => Some("give [regularisation] a law and a lambda, or take newton".into()),
-            Self::NotWhole => {
-                Some("remove it: `--set grid.along=`; model.form = \"mixed\" and method = \"newton\" have it".into())
-            }
-            Self::NeedsTime => Some("remove flow.oscillation, or set model.state = \"transient\"".into()),
-            Self::NoWidth => Some("remove it, or set flow.shape = \"rectangle\"".into()),
-            Self::Slender { .. } => Some("shape = \"planes\" is the limit of a wide section".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
             Self::LimitKey { .. } => Some("for example over = \"flow.slope=0.01:0.05:9\"".into()),
             Self::CheckLevel { column: true, .. } => Some("for example at = \"10 mm\"".into()),

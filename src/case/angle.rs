@@ -3,11 +3,14 @@
 //! `x-angle` in the schema of a slope names the key that says what its number is: tangent, sine or angle. A text such as
 //! "24 deg" is the angle itself: it needs no such key, and contradicts one that says anything else.
 
+use std::sync::Arc;
+
 use serde_json::Value;
 
 use super::document::{Data, Node};
-use super::fault::{Fault, Violation};
+use super::fault::Fault;
 use super::schema;
+use super::violation::Violation;
 use super::{Case, wording};
 use crate::units::{Dimension, UnitError, parse_quantity, significant};
 
@@ -76,7 +79,7 @@ pub(super) fn definition(entries: &[(String, Node)], schema: &Value, path: &str)
         _ => return None,
     };
     let spans = vec![given.value.clone(), said.0.value.clone()];
-    Some(Definition::Contradicted(Violation { fault, path: format!("{path}.{name}"), spans }))
+    Some(Definition::Contradicted(Violation { fault: Arc::new(fault), path: format!("{path}.{name}"), spans }))
 }
 
 impl Case {

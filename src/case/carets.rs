@@ -5,9 +5,8 @@ use std::ops::Range;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 
-use super::fault::Violation;
 use super::render::{SHOWN, brief};
-use super::{CaseError, Document, printable};
+use super::{CaseError, Document, Violation, printable};
 
 /// Lines longer than this are cut around the place.
 const LONG: usize = 160;

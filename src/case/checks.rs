@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::result::Class;
+
 /// A number that the case must give: it makes the case its own test.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Check {
@@ -53,24 +55,6 @@ pub struct Limit {
 
 fn one_per_cent() -> f64 {
     0.01
-}
-
-/// What comes of a method.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Class {
-    /// Solved, and as accurate as wanted where a closed form says.
-    Holds,
-    /// Solved, and further from the closed form than the tolerance.
-    Inaccurate,
-    /// The iteration ends without a solution.
-    NotConverged,
-    /// A number leaves the range of numbers, or a grain its place.
-    Diverged,
-    /// The equations have no such flow, or the answer does not balance.
-    Unphysical,
-    /// Refused: before it is run, or by a limit that the method knows of itself.
-    Refused,
 }
 
 /// What kind of agreement a check claims.

@@ -1,12 +1,15 @@
 //! Compares a document with the schema of its model: every violation at once, each with its place.
 
+use std::sync::Arc;
+
 use serde_json::{Map, Value, json};
 
 use super::angle::{self, Definition};
 use super::document::{Data, Document, Node, Span};
-use super::fault::{Fault, Violation};
+use super::fault::Fault;
 use super::kind::{Kind, Kinds};
 use super::schema;
+use super::violation::Violation;
 use super::wording::{choices, expected, header, shown};
 use crate::closures::catalogue;
 
@@ -267,7 +270,7 @@ impl<'k> Walk<'k> {
                 }
                 let owned = |names: &[&str]| names.iter().map(|&n| n.to_owned()).collect();
                 let fault = Fault::Drives { given: owned(&given), allowed: owned(&drives) };
-                self.violations.push(Violation { fault, path: path.to_owned(), spans });
+                self.violations.push(Violation { fault: Arc::new(fault), path: path.to_owned(), spans });
             }
         }
         Value::Object(object)

@@ -5,7 +5,8 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::fault::{Fault, Violation};
+use super::fault::Fault;
+use super::violation::Violation;
 
 /// Where something stands: which text, and which bytes of it.
 #[derive(Clone, Debug, PartialEq, Eq)]

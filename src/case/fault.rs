@@ -1,18 +1,21 @@
-//! Everything that can be wrong with a case, with the numbers that say so.
+//! What can be wrong with a case by itself, with the numbers that say so. What a model finds is its own fault.
 
-use super::document::Span;
+use std::io;
+
+use crate::result::codes;
 use crate::units::UnitError;
 
-/// What is wrong at one place of a case.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+/// What is wrong at one place of a case, whatever its model.
+#[derive(Debug, thiserror::Error)]
 pub enum Fault {
     /// The file cannot be read.
-    #[error("cannot read {file}: {reason}")]
+    #[error("cannot read {file}: {error}")]
     Unreadable {
         /// path
         file: String,
         /// what the system says
-        reason: String,
+        #[source]
+        error: io::Error,
     },
     /// Neither a file nor a shipped case.
     #[error("there is no file and no shipped case \"{name}\"")]
@@ -115,6 +118,7 @@ pub enum Fault {
         /// key
         name: String,
         /// why
+        #[source]
         error: UnitError,
         /// SI unit of the quantity
         unit: String,
@@ -159,52 +163,6 @@ pub enum Fault {
         /// drives to choose from
         allowed: Vec<String>,
     },
-    /// Not exactly one free surface.
-    #[error("the flow has {} free surfaces: give height or depth", given.len())]
-    Surfaces {
-        /// keys that were given
-        given: Vec<String>,
-    },
-    /// A bed that fills the flow.
-    #[error("the bed level {level} m is not below the flow height {height} m")]
-    NoRoomForFlow {
-        /// bed level \[m]
-        level: f64,
-        /// flow height \[m]
-        height: f64,
-    },
-    /// Grains that float.
-    #[error("the grains ({grains} kg/m3) are not denser than the fluid ({fluid} kg/m3): no bed")]
-    Floating {
-        /// density of the grains
-        grains: f64,
-        /// density of the fluid
-        fluid: f64,
-    },
-    /// More grains than fit.
-    #[error("bed.phi = {phi} is not below phi_max = {phi_max} of the viscosity law")]
-    Jammed {
-        /// solid fraction
-        phi: f64,
-        /// solid fraction at which the grains jam
-        phi_max: f64,
-    },
-    /// A bed thinner than its grains.
-    #[error("the bed is {level} m thick, less than one grain of {diameter} m")]
-    ThinnerThanAGrain {
-        /// bed level \[m]
-        level: f64,
-        /// grain diameter \[m]
-        diameter: f64,
-    },
-    /// mu_2 below mu_s.
-    #[error("mu_2 = {mu_2} is not more than mu_s = {mu_s}")]
-    FrictionFalls {
-        /// friction at vanishing inertial number
-        mu_s: f64,
-        /// friction at large inertial number
-        mu_2: f64,
-    },
     /// A slope that is vertical or more.
     #[error("a slope whose {definition} is {value} is vertical or more")]
     TooSteep {
@@ -213,61 +171,6 @@ pub enum Fault {
         /// as given
         value: f64,
     },
-    /// A number of grains, or a room for them, that no run could hold.
-    #[error("{name} is {value:.6}, which is not from {least:.6} to {most:.6}")]
-    GrainRoom {
-        /// what it is
-        name: &'static str,
-        /// as it follows from the case
-        value: f64,
-        /// smallest value
-        least: f64,
-        /// largest value
-        most: f64,
-    },
-    /// A regularisation without a size, with two, or a size without a law.
-    #[error("{}", match (*given, *exact) { (0, _) => "the regularisation has no size", (_, true) => "the exact yield (law = \"none\") has no size", _ => "the regularisation has two sizes" })]
-    RegularisationSize {
-        /// sizes that were given
-        given: usize,
-        /// whether the law is `none`
-        exact: bool,
-    },
-    /// A width where the outline has none.
-    #[error("only a rectangle has a width")]
-    NoWidth,
-    /// A section that is much wider than high, or the reverse.
-    #[error("the width is {ratio} times the height: a section takes {low} to {high}")]
-    Slender {
-        /// width over height
-        ratio: f64,
-        /// smallest
-        low: f64,
-        /// largest
-        high: f64,
-    },
-    /// The first-order method with a regularisation.
-    #[error("the first-order method has the exact yield only")]
-    DualIsExact,
-    /// The whole duct for a model that has only its section.
-    #[error("the whole duct has one velocity, walls on all sides and Newton's method only")]
-    NotWhole,
-    /// A law whose packing is looser than that of the bed.
-    #[error("phi_max = {phi_max} of {law} must reach {bed}, that of the bed at rest (closures.dilatancy)")]
-    PackedBeyond {
-        /// the law
-        law: &'static str,
-        /// its phi_max
-        phi_max: f64,
-        /// that of the bed
-        bed: f64,
-    },
-    /// The pseudo-time iteration with the exact yield.
-    #[error("the iteration needs a regularisation: the viscosity of grains at rest is infinite")]
-    IterationNeedsCreep,
-    /// Waves in a steady flow.
-    #[error("a steady flow has no waves")]
-    NeedsTime,
     /// A law that the model cannot hold.
     #[error("closures.{family} law \"{law}\" does not go with {model}")]
     LawMismatch {
@@ -279,14 +182,6 @@ pub enum Fault {
         model: String,
         /// laws that go with it
         allowed: Vec<String>,
-    },
-    /// A wall rougher than the flow is high.
-    #[error("the roughness length k_s/30 = {length} m is not below the flow height {height} m")]
-    RoughnessAboveFlow {
-        /// roughness length \[m]
-        length: f64,
-        /// flow height \[m]
-        height: f64,
     },
     /// A check of something that is not reported.
     #[error("there is no result \"{name}\" to check")]
@@ -315,73 +210,32 @@ pub enum Fault {
     },
 }
 
-impl Fault {
-    /// Stable identifier, as in the answer of `--json`.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Unreadable { .. } => "unreadable",
-            Self::NoSuchCase { .. } => "no-such-case",
-            Self::TooLarge { .. } => "too-large",
-            Self::NotUtf8 { .. } => "not-utf8",
-            Self::Binary { .. } => "binary",
-            Self::Empty => "empty",
-            Self::BadSet { .. } => "bad-set",
-            Self::Syntax { .. } => "syntax",
-            Self::Unknown { what, .. } if *what == "table" => "unknown-table",
-            Self::Unknown { .. } => "unknown-key",
-            Self::NotUsed { .. } => "not-used",
-            Self::Missing { what, .. } if *what == "table" => "missing-table",
-            Self::Missing { .. } => "missing-key",
-            Self::WrongType { .. } => "wrong-type",
-            Self::Unit { error: UnitError::WrongDimension { .. }, .. } => "wrong-dimension",
-            Self::Unit { error: UnitError::UnknownUnit { .. }, .. } => "unknown-unit",
-            Self::Unit { error: UnitError::NotFinite { .. }, .. } | Self::NotFinite { .. } => "not-finite",
-            Self::Unit { .. } => "bad-quantity",
-            Self::OutOfRange { .. } => "out-of-range",
-            Self::UnknownWord { .. } => "unknown-word",
-            Self::Drives { .. } => "drives",
-            Self::Surfaces { .. } => "surfaces",
-            Self::NoRoomForFlow { .. } => "no-room-for-flow",
-            Self::Floating { .. } => "floating-grains",
-            Self::Jammed { .. } => "jammed",
-            Self::ThinnerThanAGrain { .. } => "thinner-than-a-grain",
-            Self::FrictionFalls { .. } => "friction-falls",
-            Self::TooSteep { .. } => "too-steep",
-            Self::GrainRoom { .. } => "grain-room",
-            Self::RegularisationSize { .. } => "regularisation-size",
-            Self::NoWidth => "no-width",
-            Self::Slender { .. } => "slender",
-            Self::DualIsExact => "dual-is-exact",
-            Self::NotWhole => "not-whole",
-            Self::PackedBeyond { .. } => "packed-beyond",
-            Self::IterationNeedsCreep => "iteration-needs-creep",
-            Self::NeedsTime => "needs-time",
-            Self::LawMismatch { .. } => "law-mismatch",
-            Self::RoughnessAboveFlow { .. } => "roughness-above-flow",
-            Self::UnknownQuantity { .. } => "unknown-quantity",
-            Self::LimitKey { .. } => "limit-key",
-            Self::LimitHolds => "limit-holds",
-            Self::CheckLevel { .. } => "check-level",
-        }
-    }
-}
-
-/// A fault, the path where it is, and the places to point at.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Violation {
-    /// what is wrong
-    pub fault: Fault,
-    /// dotted path in the case: `flow.height`
-    pub path: String,
-    /// places to point at, the main one first
-    pub spans: Vec<Span>,
-}
-
-impl Violation {
-    /// A fault at one place.
-    #[must_use]
-    pub fn new(fault: Fault, path: String, span: Span) -> Self {
-        Self { fault, path, spans: vec![span] }
-    }
-}
+codes!(Fault {
+    Self::Unreadable { .. } => "unreadable",
+    Self::NoSuchCase { .. } => "no-such-case",
+    Self::TooLarge { .. } => "too-large",
+    Self::NotUtf8 { .. } => "not-utf8",
+    Self::Binary { .. } => "binary",
+    Self::Empty => "empty",
+    Self::BadSet { .. } => "bad-set",
+    Self::Syntax { .. } => "syntax",
+    Self::Unknown { what: "table", .. } => "unknown-table",
+    Self::Unknown { .. } => "unknown-key",
+    Self::NotUsed { .. } => "not-used",
+    Self::Missing { what: "table", .. } => "missing-table",
+    Self::Missing { .. } => "missing-key",
+    Self::WrongType { .. } => "wrong-type",
+    Self::Unit { error: UnitError::WrongDimension { .. }, .. } => "wrong-dimension",
+    Self::Unit { error: UnitError::UnknownUnit { .. }, .. } => "unknown-unit",
+    Self::Unit { error: UnitError::NotFinite { .. }, .. } | Self::NotFinite { .. } => "not-finite",
+    Self::Unit { .. } => "bad-quantity",
+    Self::OutOfRange { .. } => "out-of-range",
+    Self::UnknownWord { .. } => "unknown-word",
+    Self::Drives { .. } => "drives",
+    Self::TooSteep { .. } => "too-steep",
+    Self::LawMismatch { .. } => "law-mismatch",
+    Self::UnknownQuantity { .. } => "unknown-quantity",
+    Self::LimitKey { .. } => "limit-key",
+    Self::LimitHolds => "limit-holds",
+    Self::CheckLevel { .. } => "check-level",
+});

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 use std::fs::File;
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use super::diagnose::{Diagnosis, diagnose, nearest};
 use super::document::{Document, Span, Text};
-use super::fault::{Fault, Violation};
+use super::fault::Fault;
 use super::kind::{Content, Kind};
+use super::violation::Violation;
 use super::{Case, CaseError, Kinds, angle, shipped};
 
 /// Largest accepted case file \[bytes].
@@ -58,9 +59,9 @@ impl Case {
         let readable = violations.is_empty();
         let sound = readable && more.is_empty();
         // Where the syntax is broken, what is missing or mistyped may only be unreadable.
-        let unreadable = |v: &Violation| match &v.fault {
-            Fault::Missing { .. } | Fault::Empty => true,
-            Fault::Drives { given, .. } => given.is_empty(),
+        let unreadable = |v: &Violation| match v.fault.downcast_ref() {
+            Some(Fault::Missing { .. } | Fault::Empty) => true,
+            Some(Fault::Drives { given, .. }) => given.is_empty(),
             _ => document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)),
         };
         violations.extend(more.into_iter().filter(|v| broken.is_empty() || !unreadable(v)));
@@ -92,10 +93,9 @@ impl Case {
 
 /// Reads a case file as text.
 fn read(path: &Path) -> Result<String, Fault> {
-    let unreadable =
-        |error: std::io::Error| Fault::Unreadable { file: path.display().to_string(), reason: error.to_string() };
+    let unreadable = |error: io::Error| Fault::Unreadable { file: path.display().to_string(), error };
     if path.is_dir() {
-        return Err(Fault::Unreadable { file: path.display().to_string(), reason: "it is a folder".into() });
+        return Err(unreadable(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder")));
     }
     let mut bytes = Vec::new();
     File::open(path).map_err(unreadable)?.take(LIMIT + 1).read_to_end(&mut bytes).map_err(unreadable)?;

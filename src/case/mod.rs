@@ -21,14 +21,18 @@ mod render;
 pub mod schema;
 pub mod shipped;
 pub mod tables;
+mod violation;
 mod wording;
 
 pub use diagnose::nearest;
 pub use document::{Document, Span, Text};
-pub use fault::{Fault, Violation};
+pub use fault::Fault;
 pub use kind::{Kind, Kinds, Tables};
 pub use reference::reference;
 pub use render::printable;
+pub use violation::{CaseFault, Violation};
+
+use std::sync::Arc;
 
 use checks::{Check, Limit};
 use kind::Content;
@@ -128,12 +132,12 @@ impl Case {
 
     /// The case as an error: faults that only a comparison of its values shows, by path.
     #[must_use]
-    pub fn refuse(self, faults: Vec<(String, Fault)>) -> CaseError {
+    pub fn refuse(self, faults: Vec<(String, Arc<dyn CaseFault>)>) -> CaseError {
         let violations = faults
             .into_iter()
             .map(|(path, fault)| {
-                let span = self.document.locate(&path);
-                Violation::new(fault, path, span)
+                let spans = vec![self.document.locate(&path)];
+                Violation { fault, path, spans }
             })
             .collect();
         CaseError { document: self.document, violations, draft: None }

@@ -1,7 +1,6 @@
 //! Violations as programs read them, and their words for a terminal.
 
-use super::CaseError;
-use super::fault::Violation;
+use super::{CaseError, Violation};
 use crate::result::ErrorReport;
 
 /// More violations than this are counted, not shown.

@@ -21,6 +21,8 @@ mod schema;
 mod stability;
 mod study;
 mod sweep;
+#[cfg(test)]
+mod tests;
 mod validate;
 
 use std::io::{self, IsTerminal, Write};

@@ -18,7 +18,7 @@ use serde_json::{Map, json};
 use super::{Kind, Subject};
 use crate::case::nearest;
 use crate::result::quantity::{self, COLUMNS, Quantity, RESULTS};
-use crate::result::{Profile, Results, TableError, Values, read_columns};
+use crate::result::{Profile, Results, TableError, Values, codes, read_columns};
 
 /// Ending of the header of a column of standard errors.
 const SIGMA: &str = "_err";
@@ -41,7 +41,7 @@ pub struct DataError {
 pub enum DataFault {
     /// it cannot be read, or is not text
     #[error("cannot be read: {0}")]
-    Unreadable(io::Error),
+    Unreadable(#[source] io::Error),
     /// a header that is not the name of a column
     #[error("unknown column \"{name}\"")]
     UnknownColumn {
@@ -118,26 +118,22 @@ pub enum DataFault {
     Table(#[from] TableError),
 }
 
-impl DataFault {
-    /// Stable identifier.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Unreadable(_) => "data-unreadable",
-            Self::UnknownColumn { .. } => "data-unknown-column",
-            Self::NoElevation { .. } => "data-no-elevation",
-            Self::Repeated { .. } => "data-repeated-column",
-            Self::ErrorsOfNothing { .. } => "data-errors-of-nothing",
-            Self::ErrorsOfElevation => "data-errors-of-elevation",
-            Self::NotPositive { .. } => "data-error-not-positive",
-            Self::NowhereIn { .. } => "data-empty-elevation",
-            Self::Empty { .. } => "data-empty",
-            Self::UnknownResult { .. } => "data-unknown-result",
-            Self::BadResult { .. } => "data-bad-result",
-            Self::Table(_) => "data-malformed",
-        }
-    }
+codes!(DataFault {
+    Self::Unreadable(_) => "data-unreadable",
+    Self::UnknownColumn { .. } => "data-unknown-column",
+    Self::NoElevation { .. } => "data-no-elevation",
+    Self::Repeated { .. } => "data-repeated-column",
+    Self::ErrorsOfNothing { .. } => "data-errors-of-nothing",
+    Self::ErrorsOfElevation => "data-errors-of-elevation",
+    Self::NotPositive { .. } => "data-error-not-positive",
+    Self::NowhereIn { .. } => "data-empty-elevation",
+    Self::Empty { .. } => "data-empty",
+    Self::UnknownResult { .. } => "data-unknown-result",
+    Self::BadResult { .. } => "data-bad-result",
+    Self::Table(_) => "data-malformed",
+});
 
+impl DataFault {
     /// What to do about it.
     #[must_use]
     pub fn hint(&self) -> String {

@@ -27,7 +27,7 @@ pub use record::Request;
 use crate::plot::{Trace, shared_figures};
 use crate::result::Figure;
 use crate::result::quantity::{self, COLUMNS, Quantity};
-use crate::result::{Outcome, Profile, Results, Status, Summary, TableError, Validity};
+use crate::result::{Outcome, Profile, Results, Status, Summary, TableError, Validity, codes};
 
 /// What a subject is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -120,6 +120,7 @@ pub enum CompareError {
         /// which one
         subject: String,
         /// column and row
+        #[source]
         error: TableError,
     },
     /// neither a column at common elevations nor a number
@@ -130,22 +131,19 @@ pub enum CompareError {
     },
 }
 
-impl CompareError {
-    /// Stable identifier.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::Data(error) => error.fault.code(),
-            Self::TooFew { .. } => "too-few",
-            Self::NotDone { .. } => "not-done",
-            Self::NoProfile { .. } => "no-profile",
-            Self::NoNumber { .. } => "no-number",
-            Self::NoScale { .. } => "no-scale",
-            Self::NotFinite { .. } => "not-finite",
-            Self::NothingShared { .. } => "nothing-shared",
-        }
-    }
+codes!(CompareError {
+    Self::TooFew { .. } => "too-few",
+    Self::NotDone { .. } => "not-done",
+    Self::NoProfile { .. } => "no-profile",
+    Self::NoNumber { .. } => "no-number",
+    Self::NoScale { .. } => "no-scale",
+    Self::NotFinite { .. } => "not-finite",
+    Self::NothingShared { .. } => "nothing-shared",
+} nested {
+    Self::Data(error) => error.fault.code(),
+});
 
+impl CompareError {
     /// What to do about it.
     #[must_use]
     pub fn hint(&self) -> String {

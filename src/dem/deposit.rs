@@ -7,8 +7,9 @@ use super::body::Pushed;
 use super::checkpoint::{Reader, Writer};
 use super::domain::Domain;
 use super::engine::{Engine, Settings};
+use super::error::RunError;
 use super::grains::Grain;
-use super::keep::{law, unwritable};
+use super::keep::law;
 use super::law::LinearSpring;
 use super::{pack, stability};
 use crate::dem::Bottom;
@@ -163,7 +164,7 @@ fn settle(
             engine.save(&mut to);
             to.seal(name)
         };
-        context.keep(stop, &mut content).map_err(|error| unwritable(&error))?;
+        context.keep(stop, &mut content).map_err(RunError::File)?;
         if stop {
             return Ok(ControlFlow::Break(()));
         }

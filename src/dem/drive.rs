@@ -18,9 +18,10 @@ use sha2::{Digest, Sha256};
 use super::checkpoint::{Reader, Writer};
 use super::deposit::{Deposit, Stage, deposit};
 use super::engine::Engine;
+use super::error::RunError;
 use super::film::Film;
 use super::grains::Grain;
-use super::keep::{law, refused, unwritable};
+use super::keep::law;
 use super::law::LinearSpring;
 use super::outcome::nothing;
 use super::picture;
@@ -150,7 +151,7 @@ pub fn accepts(scene: &impl Scene, bytes: &[u8]) -> Result<(), CheckpointError> 
 /// [`Failure`] with the grain or the cell that cannot go on, and the averages so far.
 pub fn run<'a, F: Flow<'a> + 'a>(scene: &'a F::Scene, context: &mut Context<'_>) -> Result<Outcome, Failure> {
     let half_way = match context.resumed() {
-        Some(bytes) => Some(resume::<F>(scene, &bytes, context.threads).map_err(refused)?),
+        Some(bytes) => Some(resume::<F>(scene, &bytes, context.threads).map_err(RunError::Checkpoint)?),
         None => None,
     };
     let falling = match half_way {
@@ -251,14 +252,14 @@ impl<'a, F: Flow<'a> + 'a> Run<F> {
             }
             if frames > 0 && made.is_multiple_of(frame) {
                 let taken = context.frame(made / frame, &mut || picture::vtp(grains, time));
-                taken.map_err(|error| unwritable(&error))?;
+                taken.map_err(RunError::File)?;
             }
             if made.is_multiple_of(F::BETWEEN) || made == all {
                 let Progress { stage, quantity } = self.flow.progress(made - begun, clock);
                 let fraction = made as f64 / all as f64;
                 let stop = context.watch.see(&Snapshot { stage: &stage, fraction, quantity }).is_break();
                 let kept = context.keep(stop, &mut || self.checkpoint());
-                kept.map_err(|error| unwritable(&error))?;
+                kept.map_err(RunError::File)?;
                 if stop {
                     return Ok(Status::Stopped);
                 }

@@ -1,7 +1,10 @@
 //! Why a step of the grains cannot be taken: with the grain, the step and the place.
 
+use std::io;
+
 use super::grains::Point;
-use crate::result::{Failure, SolveError};
+use crate::closures::contact::restitution::RestitutionError;
+use crate::result::{CheckpointError, Class, MethodError, codes};
 
 /// Where and when something went wrong.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -106,31 +109,85 @@ pub enum GrainError {
     },
 }
 
-impl From<GrainError> for SolveError {
-    fn from(error: GrainError) -> Self {
-        let (code, hint) = match error {
-            GrainError::Overlap { .. } => ("overlap", "stiffer contacts (closures.contact.k_n) or slower grains"),
-            GrainError::NotFinite { .. } => ("not-finite", "a shorter time step, or values nearer to those of grains"),
-            GrainError::Lost { .. } => {
-                ("grain-lost", "a bottom without gaps: bed.bottom = \"plane\" or more layers of fixed grains")
+codes!(GrainError {
+    Self::Overlap { .. } => "overlap",
+    Self::NotFinite { .. } => "not-finite",
+    Self::Lost { .. } => "grain-lost",
+    Self::StepTooLong { .. } | Self::DragStep { .. } | Self::FluidStep { .. } => "step-too-long",
+    Self::PeriodTooShort { .. } => "period-too-short",
+    Self::Count { .. } => "grain-count",
+});
+
+impl MethodError for GrainError {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn class(&self) -> Class {
+        match self {
+            Self::Overlap { .. } | Self::NotFinite { .. } | Self::Lost { .. } => Class::Diverged,
+            Self::StepTooLong { .. }
+            | Self::DragStep { .. }
+            | Self::FluidStep { .. }
+            | Self::PeriodTooShort { .. }
+            | Self::Count { .. } => Class::Refused,
+        }
+    }
+
+    fn hint(&self) -> String {
+        match self {
+            Self::Overlap { .. } => "stiffer contacts (closures.contact.k_n) or slower grains",
+            Self::NotFinite { .. } => "a shorter time step, or values nearer to those of grains",
+            Self::Lost { .. } => "a bottom without gaps: bed.bottom = \"plane\" or more layers of fixed grains",
+            Self::StepTooLong { .. } | Self::DragStep { .. } => {
+                "a shorter discrete.time_step, or discrete.force_time_step = true"
             }
-            GrainError::StepTooLong { .. } | GrainError::DragStep { .. } => {
-                ("step-too-long", "a shorter discrete.time_step, or discrete.force_time_step = true")
+            Self::FluidStep { .. } => {
+                "discrete.fluid_scheme = \"implicit\", more discrete.fluid_steps or a shorter discrete.coupling_period"
             }
-            GrainError::FluidStep { .. } => (
-                "step-too-long",
-                "discrete.fluid_scheme = \"implicit\", more discrete.fluid_steps or a shorter discrete.coupling_period",
-            ),
-            GrainError::PeriodTooShort { .. } => ("period-too-short", "a longer flow.length or flow.width"),
-            GrainError::Count { .. } => ("grain-count", "another number of bed.layers, flow.length or flow.width"),
-        };
-        Self::Grains { code, message: error.to_string(), hint }
+            Self::PeriodTooShort { .. } => "a longer flow.length or flow.width",
+            Self::Count { .. } => "another number of bed.layers, flow.length or flow.width",
+        }
+        .into()
     }
 }
 
-impl From<GrainError> for Failure {
-    fn from(error: GrainError) -> Self {
-        SolveError::from(error).into()
+/// Why a run of grains cannot begin, or cannot keep its states.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// No damping of the contact gives its restitution coefficient.
+    #[error(transparent)]
+    Restitution(RestitutionError),
+    /// A checkpoint that cannot be used.
+    #[error("the checkpoint cannot be used: {0}")]
+    Checkpoint(#[source] CheckpointError),
+    /// A checkpoint or a frame that cannot be written.
+    #[error("a file of the grains cannot be written: {0}")]
+    File(#[source] io::Error),
+}
+
+codes!(RunError {
+    Self::Restitution(_) => "restitution",
+    Self::Checkpoint(_) => "checkpoint",
+    Self::File(_) => "file",
+});
+
+impl MethodError for RunError {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn class(&self) -> Class {
+        Class::Unphysical
+    }
+
+    fn hint(&self) -> String {
+        match self {
+            Self::Restitution(_) => "a restitution coefficient (closures.contact.e_n) in (0, 1]",
+            Self::Checkpoint(_) => "--force starts again",
+            Self::File(_) => "free some space, or give another folder with --out",
+        }
+        .into()
     }
 }
 

@@ -1,42 +1,16 @@
-//! What every run of grains shares: the law of its case, and why its files cannot be used.
+//! What every run of grains shares: the law of its case.
 
+use super::error::RunError;
 use super::law::LinearSpring;
 use crate::closures::contact::{self, Tension, restitution};
-use crate::result::{CheckpointError, SolveError};
 use crate::units::significant;
 
 /// The law of the case.
 ///
 /// # Errors
-/// [`SolveError`] if no damping gives its restitution coefficient.
-pub fn law(contact: &contact::LinearSpring) -> Result<LinearSpring, SolveError> {
-    LinearSpring::new(contact.k_n, contact.k_s, contact.mu, contact.e_n, contact.tension).map_err(|error| {
-        SolveError::Grains {
-            code: "restitution",
-            message: error.to_string(),
-            hint: "a restitution coefficient (closures.contact.e_n) in (0, 1]",
-        }
-    })
-}
-
-/// A checkpoint that cannot be used.
-#[must_use]
-pub fn refused(error: CheckpointError) -> SolveError {
-    SolveError::Grains {
-        code: "checkpoint",
-        message: format!("the checkpoint cannot be used: {error}"),
-        hint: "--force starts again",
-    }
-}
-
-/// A file of the run that cannot be written.
-#[must_use]
-pub fn unwritable(error: &std::io::Error) -> SolveError {
-    SolveError::Grains {
-        code: "file",
-        message: format!("a file of the grains cannot be written: {error}"),
-        hint: "free some space, or give another folder with --out",
-    }
+/// [`RunError::Restitution`] if no damping gives its restitution coefficient.
+pub fn law(contact: &contact::LinearSpring) -> Result<LinearSpring, RunError> {
+    LinearSpring::new(contact.k_n, contact.k_s, contact.mu, contact.e_n, contact.tension).map_err(RunError::Restitution)
 }
 
 /// The law of contact with its numbers.

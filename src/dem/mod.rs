@@ -40,7 +40,7 @@ pub(crate) mod walls;
 
 pub use domain::{Domain, Wall};
 pub use engine::{Engine, Settings};
-pub use error::GrainError;
+pub use error::{GrainError, RunError};
 pub use grains::{Grain, Grains, Point};
 pub use law::{ContactLaw, LinearSpring};
 pub use setup::{Bottom, Discrete, GrainBed};

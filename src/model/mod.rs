@@ -15,8 +15,9 @@ mod study;
 
 use std::any::Any;
 use std::fmt::Debug;
+use std::sync::Arc;
 
-use crate::case::{Fault, Tables};
+use crate::case::{CaseFault, Tables};
 use crate::closures::Info;
 use crate::result::{CheckpointError, Context, Failure, Figure, Outcome};
 
@@ -27,7 +28,27 @@ pub use simulation::Simulation;
 pub use study::{ClosedForm, Focus, Law, Meshes, Number, ONE_KIND, Rule, Rung, Sizes, Smoothed, StudyPlan, number};
 
 /// Faults found while values are compared with each other, by path in the case.
-pub type Faults = Vec<(&'static str, Fault)>;
+#[derive(Clone, Debug, Default)]
+pub struct Faults(Vec<(String, Arc<dyn CaseFault>)>);
+
+impl Faults {
+    /// None so far.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// A fault of the value at `path`, such as `bed.level`.
+    pub fn push(&mut self, (path, fault): (impl Into<String>, impl CaseFault)) {
+        self.0.push((path.into(), Arc::new(fault)));
+    }
+
+    /// Whether nothing is wrong.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+}
 
 /// What a model is called and how it behaves, before there is a problem.
 #[derive(Clone, Copy, Debug)]

@@ -3,12 +3,12 @@
 use std::any::Any;
 use std::sync::Arc;
 
-use super::{Description, ModelInfo, Solve, SteadyDrive};
-use crate::case::checks::Class;
+use super::{Description, Faults, ModelInfo, Solve, SteadyDrive};
 use crate::case::{Case, Fault};
 use crate::closures::{Info, Range};
 use crate::result::{
-    Context, Failure, Figure, Head, Outcome, Profile, SolveError, StatedLaw, Statement, Status, quantity as q,
+    Class, Context, Failure, Figure, Head, NumericalError, Outcome, Profile, StatedLaw, Statement, Status,
+    quantity as q,
 };
 
 /// Relative residual of a balance from which on a result has lost its digits: it is round-off otherwise.
@@ -61,7 +61,7 @@ impl Problem {
         let outcome = self.solver.solve(context)?.trusted(LARGEST_IMBALANCE)?;
         match self.solver.drive().and_then(|drive| uphill(&drive, &outcome)) {
             None => Ok(outcome),
-            Some(error) => Err(Failure { error, last: Some(Box::new(outcome)) }),
+            Some(error) => Err(Failure { error: error.into(), last: Some(Box::new(outcome)) }),
         }
     }
 
@@ -153,15 +153,15 @@ impl Problem {
 }
 
 /// Checks name catalogued results, or columns at a level; a limit is along a key of a table of the case.
-pub(super) fn checks(case: &Case, faults: &mut Vec<(String, Fault)>) {
+pub(super) fn checks(case: &Case, faults: &mut Faults) {
     if let Some(limit) = case.limit() {
         let key =
             limit.over.split_once('=').and_then(|(key, values)| Some((key.trim().split_once('.')?, values.trim())));
         if key.is_none_or(|((table, name), values)| table.is_empty() || name.is_empty() || values.is_empty()) {
-            faults.push(("limit.over".into(), Fault::LimitKey { over: limit.over.clone() }));
+            faults.push(("limit.over", Fault::LimitKey { over: limit.over.clone() }));
         }
         if limit.beyond == Class::Holds {
-            faults.push(("limit.beyond".into(), Fault::LimitHolds));
+            faults.push(("limit.beyond", Fault::LimitHolds));
         }
     }
     for (i, check) in case.checks().iter().enumerate() {
@@ -184,10 +184,10 @@ pub(super) fn checks(case: &Case, faults: &mut Vec<(String, Fault)>) {
 }
 
 /// Why a flow under a steady drive is none: it goes the other way.
-fn uphill(drive: &SteadyDrive, outcome: &Outcome) -> Option<SolveError> {
+fn uphill(drive: &SteadyDrive, outcome: &Outcome) -> Option<NumericalError> {
     let against = |u: &f64| outcome.status == Status::Done && *u < -AT_REST * drive.velocity_scale;
     let velocity_m_s = mean_velocity(outcome).filter(against)?;
-    Some(SolveError::FlowsUphill { velocity_m_s, over_s: drive.at_s.map(|at| [at; 2]), hint: drive.hint })
+    Some(NumericalError::FlowsUphill { velocity_m_s, over_s: drive.at_s.map(|at| [at; 2]), hint: drive.hint })
 }
 
 /// Mean velocity of the fluid over its height [m/s]: as reported, from its discharge, or from its profile.

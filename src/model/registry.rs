@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::problem::checks;
 use super::{Checked, Faults, Flow, Model, ModelInfo, Offer, Problem, Solve};
-use crate::case::{Case, CaseError, Fault, Kind, Kinds, Tables};
+use crate::case::{Case, CaseError, Kind, Kinds, Tables};
 
 /// A problem of some model, if its values allow one; or that the tables are none of the model's.
 type Built = Result<Option<Arc<dyn Solve>>, serde_json::Error>;
@@ -104,12 +104,10 @@ impl Registry {
             // The tables were read once: neither can happen to a case that this registry read.
             Some(Err(_)) | None => None,
         };
-        let mut faults: Vec<(String, Fault)> =
-            faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect();
         checks(case, &mut faults);
         match (solver, entry) {
             (Some(solver), Some(entry)) if faults.is_empty() => Ok(Problem::new(case, entry.info.stochastic, solver)),
-            _ => Err(case.clone().refuse(faults)),
+            _ => Err(case.clone().refuse(faults.0)),
         }
     }
 }
@@ -128,7 +126,7 @@ fn from_case<M: Model>(case: &Case) -> Result<M, CaseError> {
     let tables: Option<M::Tables> = serde_json::from_value(case.tables().clone()).ok();
     match tables.and_then(|tables| M::build(&tables, &mut faults)) {
         Some(problem) if faults.is_empty() => Ok(problem),
-        _ => Err(case.clone().refuse(faults.into_iter().map(|(path, fault)| (path.to_owned(), fault)).collect())),
+        _ => Err(case.clone().refuse(faults.0)),
     }
 }
 

@@ -1,5 +1,7 @@
 //! The models: one folder each, and one line each in the registry.
 
+mod bed_error;
+mod bed_fault;
 pub mod bingham;
 pub mod coupled;
 pub mod exact;
@@ -13,6 +15,10 @@ pub mod sheet_flow;
 mod tests;
 pub mod two_fluid;
 mod yielding;
+
+pub use bed_error::BedError;
+pub use bed_fault::BedFault;
+pub use yielding::RegularisationSize;
 
 use crate::dem::GrainBed;
 use crate::model::{Entry, OnMesh, Registry};

@@ -3,11 +3,36 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::case::Fault;
+use crate::case::CaseFault;
 use crate::case::tables::cells;
 use crate::closures::regularisation::Smoothing;
 use crate::model::{Faults, Law, Meshes, Rung, Sizes, Smoothed};
 use crate::models::exact::bed::LaminarBed;
+use crate::result::codes;
+
+/// A regularisation without a size, with two, or a size without a law.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", match (*given, *exact) { (0, _) => "the regularisation has no size", (_, true) => "the exact yield (law = \"none\") has no size", _ => "the regularisation has two sizes" })]
+pub struct RegularisationSize {
+    /// sizes that were given
+    pub given: usize,
+    /// whether the law is `none`
+    pub exact: bool,
+}
+
+codes!(RegularisationSize {
+    Self { .. } => "regularisation-size",
+});
+
+impl CaseFault for RegularisationSize {
+    fn code(&self) -> &'static str {
+        self.code()
+    }
+
+    fn allowed(&self) -> Option<String> {
+        Some("one of lambda, lambda_scaled with a law; neither with law = \"none\"".into())
+    }
+}
 
 /// How the yield stress is smoothed, and by how much: a size for every law but `none`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -78,7 +103,7 @@ pub(super) fn size(table: &RegularisationTable, faults: &mut Faults) -> Option<S
         }
         (law, a, b) => {
             let given = usize::from(a.is_some()) + usize::from(b.is_some());
-            faults.push(("regularisation", Fault::RegularisationSize { given, exact: law == Smoothing::None }));
+            faults.push(("regularisation", RegularisationSize { given, exact: law == Smoothing::None }));
             None
         }
     }

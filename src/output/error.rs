@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
-use crate::result::Status;
+use crate::result::{Status, codes};
 
 /// The process that writes an output.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -119,6 +119,7 @@ pub enum OutputError {
         /// folder or file
         path: PathBuf,
         /// what the system says
+        #[source]
         error: io::Error,
     },
     /// a folder that is not a run
@@ -133,6 +134,7 @@ pub enum OutputError {
     #[error("{error}; {} keeps {what}", folder.display())]
     Kept {
         /// what failed
+        #[source]
         error: Box<Self>,
         /// where it stays
         folder: PathBuf,
@@ -147,31 +149,28 @@ pub enum OutputError {
         /// the file
         path: PathBuf,
         /// what the system says
+        #[source]
         error: io::Error,
     },
 }
 
-impl OutputError {
-    /// Stable identifier, as in the answer of `--json`.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::InUse { .. } => "in-use",
-            Self::NotAFolder(_) => "not-a-folder",
-            Self::Foreign { .. } => "foreign-folder",
-            Self::ForeignFile(_) => "foreign-file",
-            Self::OtherKind { .. } => "other-kind",
-            Self::OtherComparison { .. } => "other-comparison",
-            Self::OtherStudy { .. } => "other-study",
-            Self::UnfinishedStudy { .. } => "unfinished-study",
-            Self::OtherCase { .. } => "other-case",
-            Self::Unfinished { .. } => "unfinished-run",
-            Self::Unwritable { .. } => "unwritable",
-            Self::NotARun { .. } => "not-a-run",
-            Self::Interrupted { .. } | Self::Kept { .. } => "write-failed",
-        }
-    }
+codes!(OutputError {
+    Self::InUse { .. } => "in-use",
+    Self::NotAFolder(_) => "not-a-folder",
+    Self::Foreign { .. } => "foreign-folder",
+    Self::ForeignFile(_) => "foreign-file",
+    Self::OtherKind { .. } => "other-kind",
+    Self::OtherComparison { .. } => "other-comparison",
+    Self::OtherStudy { .. } => "other-study",
+    Self::UnfinishedStudy { .. } => "unfinished-study",
+    Self::OtherCase { .. } => "other-case",
+    Self::Unfinished { .. } => "unfinished-run",
+    Self::Unwritable { .. } => "unwritable",
+    Self::NotARun { .. } => "not-a-run",
+    Self::Interrupted { .. } | Self::Kept { .. } => "write-failed",
+});
 
+impl OutputError {
     /// What to do about it.
     #[must_use]
     pub fn hint(&self) -> Option<String> {

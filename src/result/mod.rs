@@ -2,6 +2,8 @@
 //! These are the only types that plots, reports, tables and comparisons accept.
 
 mod checkpoint;
+mod class;
+mod codes;
 mod context;
 mod failure;
 mod field;
@@ -16,8 +18,10 @@ mod table;
 mod watch;
 
 pub use checkpoint::CheckpointError;
+pub use class::Class;
+pub(crate) use codes::codes;
 pub use context::{Checkpoints, Context, Frames};
-pub use failure::{Failure, SolveError};
+pub use failure::{Failure, MethodError, NumericalError, SolveError};
 pub use field::{Field, SideView};
 pub use figure::{Axis, Curve, Dash, Figure, Level, Marker, Panel, Scale};
 pub use motion::{Motion, base64};

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::{
-    Balance, Failure, Field, Figure, Motion, Profile, Results, Series, SideView, SolveError, Statement, Status,
+    Balance, Failure, Field, Figure, Motion, NumericalError, Profile, Results, Series, SideView, Statement, Status,
     Validity, quantity as q,
 };
 
@@ -74,8 +74,8 @@ impl Outcome {
     /// The outcome, if every number in it is one and its balances close to `limit`; else a failure that keeps what can be kept.
     ///
     /// # Errors
-    /// [`SolveError::NotRepresentable`] with the first result, balance or variable that is not finite,
-    /// [`SolveError::Unbalanced`] with the first balance that does not close.
+    /// [`NumericalError::NotRepresentable`] with the first result, balance or variable that is not finite,
+    /// [`NumericalError::Unbalanced`] with the first balance that does not close.
     pub fn trusted(mut self, limit: f64) -> Result<Self, Failure> {
         let results =
             self.results.iter().filter(|(_, reported)| reported.overflowed()).map(|(name, _)| name.to_owned());
@@ -83,8 +83,8 @@ impl Outcome {
             self.balances.iter().filter(|b| !b.relative.is_finite()).map(|b| format!("the balance {}", b.name));
         let variables = self.validity.iter().filter(|v| !v.value.is_finite()).map(|v| v.variable.clone());
         let overflowed =
-            results.chain(balances).chain(variables).next().map(|name| SolveError::NotRepresentable { name });
-        let unbalanced = self.balances.iter().find(|b| b.relative.abs() > limit).map(|b| SolveError::Unbalanced {
+            results.chain(balances).chain(variables).next().map(|name| NumericalError::NotRepresentable { name });
+        let unbalanced = self.balances.iter().find(|b| b.relative.abs() > limit).map(|b| NumericalError::Unbalanced {
             balance: b.name.clone(),
             relative: b.relative,
             limit,
@@ -92,7 +92,7 @@ impl Outcome {
         let Some(error) = overflowed.or(unbalanced) else { return Ok(self) };
         self.balances.retain(|b| b.relative.is_finite());
         self.validity.retain(|v| v.value.is_finite());
-        Err(Failure { error, last: Some(Box::new(self)) })
+        Err(Failure { error: error.into(), last: Some(Box::new(self)) })
     }
 }
 

@@ -5,12 +5,10 @@ use super::range::{Varied, number_and_unit, parse};
 use super::stability::Request;
 use super::{Row, StudyError};
 use crate::case::CaseError;
-use crate::case::checks::Class;
 use crate::model::ClosedForm;
 use crate::model::Registry;
-use crate::result::Context;
-use crate::result::Results;
 use crate::result::quantity::{self as q, Quantity};
+use crate::result::{Class, Context, Results};
 
 /// What is judged: the first of these that a point and its closed form have.
 const JUDGED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
@@ -46,38 +44,6 @@ pub struct Limit {
     pub reason: String,
 }
 
-impl Class {
-    /// All of them, in the order of the figures.
-    pub const ALL: [Self; 6] =
-        [Self::Holds, Self::Inaccurate, Self::NotConverged, Self::Diverged, Self::Unphysical, Self::Refused];
-
-    /// In words.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Holds => "holds",
-            Self::Inaccurate => "holds, but inaccurate",
-            Self::NotConverged => "not converged",
-            Self::Diverged => "diverged",
-            Self::Unphysical => "unphysical",
-            Self::Refused => "refused",
-        }
-    }
-
-    /// The class of a failure by its code.
-    #[must_use]
-    pub fn of_code(code: &str) -> Self {
-        match code {
-            "not-converged" | "locked" | "no-root" | "unsettled" | "stuck-in-time" | "no-steady-flow" => {
-                Self::NotConverged
-            }
-            "not-finite" | "overlap" | "grain-lost" => Self::Diverged,
-            "step-too-long" | "period-too-short" | "grain-count" | "change-of-type" => Self::Refused,
-            _ => Self::Unphysical,
-        }
-    }
-}
-
 pub(super) fn solved(request: &Request, form: Option<Box<dyn ClosedForm>>, results: &Results) -> Found {
     let error = form.and_then(|form| {
         let of = |q: &&&Quantity| Some((results.get(q.name)?, form.results().get(q.name).filter(|x| *x != 0.0)?));
@@ -105,7 +71,7 @@ fn trial(registry: &Registry, request: &Request, overrides: &[String]) -> Found 
         }
         Ok(problem) => match Context::quiet(|context| problem.run(context)) {
             Ok(outcome) => solved(request, problem.solver().closed_form(), &outcome.results),
-            Err(failure) => failed(Class::of_code(failure.error.code()), failure.error.to_string()),
+            Err(failure) => failed(failure.error.class(), failure.error.to_string()),
         },
     }
 }
@@ -218,4 +184,24 @@ pub(super) fn limits(
         });
     }
     limits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failure_has_the_class_of_its_error_and_a_bad_case_is_refused() {
+        let request = Request {
+            case: "laminar_1d_ouriemi".into(),
+            overrides: Vec::new(),
+            over: Vec::new(),
+            tolerance: 0.5,
+            predicted: None,
+        };
+        let class = |set: &str| trial(&crate::models::builtin(), &request, &[set.to_owned()]).class;
+        assert_eq!(class("grid.cells=48"), Class::Holds);
+        assert_eq!(class("flow.pressure_gradient=1e5"), Class::Unphysical);
+        assert_eq!(class("bed.level=1 m"), Class::Refused);
+    }
 }

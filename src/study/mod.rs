@@ -25,6 +25,7 @@ mod sheet;
 pub mod stability;
 pub mod sweep;
 
+use std::error::Error;
 use std::path::PathBuf;
 
 use serde_json::{Map, Value};
@@ -32,9 +33,12 @@ use serde_json::{Map, Value};
 use crate::case::{CaseError, nearest};
 use crate::compare::DataError;
 use crate::output::{OutputError, default_folder};
-use crate::result::{Cost, ErrorReport, Field, Figure, Profile, Results, Status};
+use crate::result::{Class, Cost, ErrorReport, Field, Figure, Profile, Results, Status, codes};
 
 pub use runner::{Conducted, Next, Observer, Settings, conduct};
+
+/// Code of a point that the user stopped.
+pub(crate) const STOPPED: &str = "stopped";
 
 /// What is run: points of one case.
 #[derive(Clone, Debug)]
@@ -80,6 +84,8 @@ pub struct Row {
     pub status: Status,
     /// why it failed
     pub error: Option<ErrorReport>,
+    /// what that says of the method; `None` where the case is refused
+    pub class: Option<Class>,
     /// its numbers \[SI]
     pub results: Results,
     /// evaluations of the residual, where something was iterated
@@ -200,34 +206,32 @@ pub enum StudyError {
     #[error(transparent)]
     Output(#[from] OutputError),
     /// the system gives no threads
-    #[error("the system gives no {wanted} threads: {reason}")]
+    #[error("the system gives no {wanted} threads: {error}")]
     Threads {
         /// how many were asked for
         wanted: usize,
         /// what it says
-        reason: String,
+        #[source]
+        error: Box<dyn Error + Send + Sync>,
     },
 }
 
-impl StudyError {
-    /// Stable identifier, as in the answer of `--json`.
-    #[must_use]
-    pub fn code(&self) -> &'static str {
-        match self {
-            Self::NoSuchSetting { .. } => "no-such-setting",
-            Self::NoClosedForm { .. } => "no-closed-form",
-            Self::BadReference { .. } => "bad-reference",
-            Self::BadOver { .. } => "bad-over",
-            Self::BadFit { .. } => "bad-fit",
-            Self::BadSigma { .. } => "bad-sigma",
-            Self::BadData { .. } => "bad-data",
-            Self::Data(error) => error.fault.code(),
-            Self::Case(_) => "case",
-            Self::Output(error) => error.code(),
-            Self::Threads { .. } => "no-threads",
-        }
-    }
+codes!(StudyError {
+    Self::NoSuchSetting { .. } => "no-such-setting",
+    Self::NoClosedForm { .. } => "no-closed-form",
+    Self::BadReference { .. } => "bad-reference",
+    Self::BadOver { .. } => "bad-over",
+    Self::BadFit { .. } => "bad-fit",
+    Self::BadSigma { .. } => "bad-sigma",
+    Self::BadData { .. } => "bad-data",
+    Self::Case(_) => "case",
+    Self::Threads { .. } => "no-threads",
+} nested {
+    Self::Data(error) => error.fault.code(),
+    Self::Output(error) => error.code(),
+});
 
+impl StudyError {
     /// What to do about it.
     #[must_use]
     pub fn hint(&self) -> String {

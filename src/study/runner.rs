@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use serde_json::Value;
 
 use super::converge::Judge;
-use super::{Judgement, Plan, Point, Row, StudyError, page, record};
+use super::{Judgement, Plan, Point, Row, STOPPED, StudyError, page, record};
 use crate::case::{Case, CaseError};
 use crate::model::{Problem, Registry};
 use crate::output::{
@@ -136,7 +136,7 @@ fn carry_out(
     let threads = rayon::ThreadPoolBuilder::new()
         .num_threads(settings.threads)
         .build()
-        .map_err(|error| StudyError::Threads { wanted: settings.threads, reason: error.to_string() })?;
+        .map_err(|error| StudyError::Threads { wanted: settings.threads, error: error.into() })?;
     let mut provenance = Provenance { source: plan.case.clone(), ..Provenance::of_this_program() };
     (provenance.overrides, provenance.threads) = (plan.overrides.clone(), threads.current_num_threads());
     let head = record::Head { plan, name, identity, command: &settings.command };
@@ -297,7 +297,13 @@ fn solve(
         }
         Err(failure) => {
             let written = write_failure(&mut folder, summary, &head, &failure, cost, false)?.summary;
-            Row { error: written.error, results: written.results, cost: written.cost, ..Row::empty(Status::Failed) }
+            Row {
+                error: written.error,
+                class: Some(failure.error.class()),
+                results: written.results,
+                cost: written.cost,
+                ..Row::empty(Status::Failed)
+            }
         }
     })
 }
@@ -315,7 +321,7 @@ impl Row {
     /// A row of which nothing but its state is known.
     pub(super) fn empty(status: Status) -> Self {
         let error = (status == Status::Stopped).then(|| ErrorReport {
-            code: "stopped".into(),
+            code: STOPPED.into(),
             message: "stopped by the user".into(),
             path: None,
             line: None,
@@ -327,6 +333,7 @@ impl Row {
             sha256: None,
             status,
             error,
+            class: None,
             results: Results::default(),
             iterations: None,
             cost: Cost::default(),

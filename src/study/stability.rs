@@ -13,10 +13,8 @@ use super::converge::{Judge, error_text};
 use super::limits::{Found, limits, solved};
 use super::range::{MOST, Varied, number_and_unit, parse};
 use super::{Judgement, Plan, Point, Row, StudyError};
-use crate::case::checks::Class;
 use crate::model::Registry;
-use crate::result::Status;
-use crate::result::{Axis, Curve, Figure, Marker, Panel, Scale};
+use crate::result::{Axis, Class, Curve, Figure, Marker, Panel, Scale, Status};
 use crate::units::significant;
 
 /// What the user asks for.
@@ -93,9 +91,8 @@ fn last(key: &str) -> &str {
 /// The class of a row, of which only the results are known.
 fn classify(registry: &Registry, request: &Request, row: &Row) -> Found {
     let failed = |class: Class| Found { class, error: None, reason: row.reason() };
-    match (&row.error, row.status) {
-        (Some(error), Status::Failed) if row.sha256.is_some() => failed(Class::of_code(&error.code)),
-        (_, Status::Failed) => failed(Class::Refused),
+    match row.status {
+        Status::Failed => failed(row.class.unwrap_or(Class::Refused)),
         _ => {
             let overrides = [&request.overrides[..], &row.point.overrides].concat();
             let problem = registry.load(&request.case, &overrides).ok();
@@ -262,12 +259,5 @@ mod tests {
         .unwrap();
         assert_eq!(plan.points.len(), 4);
         assert_eq!(plan.points[3].series, "form = two-fluid");
-    }
-
-    #[test]
-    fn a_failure_has_a_class() {
-        assert_eq!(Class::of_code("not-converged"), Class::NotConverged);
-        assert_eq!(Class::of_code("not-finite"), Class::Diverged);
-        assert_eq!(Class::of_code("whole-bed-moves"), Class::Unphysical);
     }
 }

@@ -1,6 +1,8 @@
 //! A model and a law that are not of the crate go through its public interface alone.
 
 use bedload::case::Case;
+use bedload::result::{Class, Failure};
+use bedload::study::{Settings, conduct, sweep};
 use serde_json::Value;
 
 use crate::support::Scratch;
@@ -41,4 +43,44 @@ fn its_cases_have_the_diagnostics_of_any_other() {
             .as_array()
             .is_some_and(|all| all.iter().any(|kind: &Value| kind.to_string().contains("thin-film")))
     );
+}
+
+#[test]
+fn a_fault_of_its_own_is_diagnosed_as_any_other() {
+    let coarse = ["closures.viscosity.n=0.05".to_owned(), "grid.cells=20".to_owned()];
+    let error = example::registry().parse("film", "film.toml", example::CASE.into(), &coarse).unwrap_err();
+    let report = &error.reports()[0];
+    assert_eq!((report.code.as_str(), report.path.as_deref()), ("too-coarse", Some("grid.cells")));
+    assert_eq!(report.allowed.as_deref(), Some("at least 40"));
+    assert!(report.hint.as_ref().is_some_and(|hint| hint.starts_with("the smaller n is")), "{report:?}");
+    let shown = error.render(false);
+    assert!(
+        ["too-coarse", "20 cells do not resolve", "at least 40", "the smaller n is"].iter().all(|w| shown.contains(w))
+    );
+    // Whoever knows the model has its numbers.
+    let fault: Option<&example::TooCoarse> = error.violations[0].fault.downcast_ref();
+    assert_eq!(fault.map(|fault| (fault.cells, fault.least)), Some((20, 40.0)));
+    assert!(error.violations[0].fault.downcast_ref::<bedload::case::Fault>().is_none());
+}
+
+#[test]
+fn a_failure_of_its_own_reaches_the_summary_and_has_its_class() {
+    let (scratch, registry) = (Scratch::new(), example::registry());
+    std::fs::write(scratch.path("film.toml"), example::CASE).unwrap();
+    let mut settings = Settings::new(&registry, "own_model", &example::Nobody);
+    (settings.out, settings.threads) = (Some(scratch.path("o")), 1);
+    let case = scratch.path("film.toml").display().to_string();
+    let (plan, judge) = sweep::plan(&case, &[], &["flow.sine=0.05,0.5".into()]).unwrap();
+    let swept = conduct(&plan, &settings, Box::new(|_, _| (Vec::new(), judge))).unwrap();
+    let [good, fast] = &swept.rows[..] else { panic!("{:?}", swept.rows) };
+    assert_eq!((good.class, fast.class), (None, Some(Class::Unphysical)));
+    let folder = swept.record["points"][1]["folder"].as_str().unwrap().to_owned();
+    let error = &scratch.summary(&format!("o/{folder}"))["error"];
+    assert_eq!(error["code"], "compressible");
+    assert!(error["message"].as_str().unwrap().starts_with("the film would flow at 80"), "{error}");
+    assert_eq!(error["hint"], "a thinner film (flow.height), or a smaller flow.sine");
+    let (_, problem) = registry.parse("film", "film.toml", example::CASE.into(), &["flow.sine=0.5".into()]).unwrap();
+    let Failure { error, .. } = bedload::prelude::Simulation::new(&problem).run().unwrap_err();
+    assert!(error.downcast_ref::<example::Compressible>().is_some_and(|error| error.velocity_m_s > 500.0), "{error:?}");
+    assert!(error.downcast_ref::<bedload::result::NumericalError>().is_none());
 }

@@ -15,7 +15,6 @@ use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
-pub use solve::{Solution, equations, run};
 
 /// The model: a Bingham fluid between two planes, solved numerically.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -12,7 +12,7 @@ use crate::models::laminar::outcome::{look, small_numbers, spread, yield_text};
 use crate::models::laminar::single::{self, Solved};
 use crate::models::premises;
 use crate::numerics::root::brent;
-use crate::result::{Failure, Outcome, Profile, Results, SolveError, TableError, Watch, quantity as q};
+use crate::result::{Failure, NumericalError, Outcome, Profile, Results, TableError, Watch, quantity as q};
 use crate::units::significant;
 
 /// A solved plane flow in scaled units.
@@ -63,14 +63,14 @@ impl Solution {
 /// Solves under the drive `f` with the yield stress `y`.
 ///
 /// # Errors
-/// [`SolveError::NotConverged`], which finite input excludes.
+/// [`NumericalError::NotConverged`], which finite input excludes.
 pub fn solve(
     y: f64,
     f: f64,
     cells: usize,
     yield_node: bool,
     regularisation: &Regularisation,
-) -> Result<Solution, SolveError> {
+) -> Result<Solution, NumericalError> {
     // The stress is symmetric: f (1/2 - z), so the edges of the plug are known.
     let edge = (0.5 - y / f).max(0.0);
     let equal =
@@ -83,14 +83,14 @@ pub fn solve(
     ]);
     let elements = vec![Element { e: 1.0, y, rise: None }; mesh.elements()];
     let solved = single::solve(&mesh, &elements, f, regularisation)
-        .map_err(|e| SolveError::NotConverged { residual: e.residual, iterations: e.iterations })?;
+        .map_err(|e| NumericalError::NotConverged { residual: e.residual, iterations: e.iterations })?;
     Ok(Solution { mesh, f, edge, solved })
 }
 
 /// Solves the plane flow on `cells` elements.
 ///
 /// # Errors
-/// [`SolveError::NoRoot`] if no gradient gives the wanted mean velocity, [`SolveError::NotConverged`].
+/// [`NumericalError::NoRoot`] if no gradient gives the wanted mean velocity, [`NumericalError::NotConverged`].
 pub fn run(problem: &RegularisedPlane, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let RegularisedPlane { plane, regularisation, yield_node } = problem;
     let y = plane.tau_0 / (plane.eta * plane.shear_scale());

@@ -1,8 +1,10 @@
 //! Whether the water goes where the slope pulls it, and what to change where it does not.
 
+use super::error::CoupledError;
 use super::run::Run;
 use crate::closures::mixing_length::{BelowPacked, MixingLength};
-use crate::result::SolveError;
+use crate::dem::GrainError;
+use crate::result::{NumericalError, SolveError};
 
 /// Samples of a mean that is looked at on the way.
 const LATE: usize = 10;
@@ -11,15 +13,13 @@ const SPEED: usize = 6;
 
 /// What helps where the published integral leaves no turbulence in the lowest water.
 const DENSE: &str = "closures.mixing_length.below_packed = \"clipped\", or a closures.mixing_length.phi_max well above the solid fraction of the bed: over a bed denser than that, the lowest water has no turbulence and runs away";
-/// What helps grains that such water throws against each other.
-const THROWN: &str = "closures.mixing_length.below_packed = \"clipped\" if the bed is denser than closures.mixing_length.phi_max, for then the lowest water has no turbulence and runs away; else stiffer contacts (closures.contact.k_n) or slower grains";
 /// What helps elsewhere.
 const COARSE: &str = "thicker slices of the fluid (discrete.slice), or a larger cell (flow.length, flow.width)";
 
 impl Run<'_> {
     /// Refuses water that on the mean flows against the slope: over the last samples, or, at the `end`, over all that are
     /// averaged.
-    pub(super) fn downhill(&self, end: bool) -> Result<(), SolveError> {
+    pub(super) fn downhill(&self, end: bool) -> Result<(), NumericalError> {
         let rows = &self.record.rows;
         let first = self.record.transient().0;
         let averaged = rows.iter().take_while(|row| (row[1] as usize) < first).count();
@@ -29,7 +29,11 @@ impl Run<'_> {
             if mean < 0.0 {
                 let start = if from > 0 { rows[from - 1][0] } else { 0.0 };
                 let hint = if self.published() { DENSE } else { COARSE };
-                return Err(SolveError::FlowsUphill { velocity_m_s: mean, over_s: Some([start, self.time()]), hint });
+                return Err(NumericalError::FlowsUphill {
+                    velocity_m_s: mean,
+                    over_s: Some([start, self.time()]),
+                    hint,
+                });
             }
         }
         Ok(())
@@ -37,11 +41,9 @@ impl Run<'_> {
 
     /// The error, with what helps where water without turbulence may be behind it.
     pub(super) fn hinted(&self, error: SolveError) -> SolveError {
-        match error {
-            SolveError::Grains { code: code @ "overlap", message, .. } if self.published() => {
-                SolveError::Grains { code, message, hint: THROWN }
-            }
-            other => other,
+        match error.downcast_ref() {
+            Some(grains @ GrainError::Overlap { .. }) if self.published() => CoupledError::Thrown(*grains).into(),
+            _ => error,
         }
     }
 

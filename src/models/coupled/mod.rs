@@ -8,6 +8,7 @@
 mod advice;
 pub mod case;
 mod direction;
+mod error;
 mod exchange;
 mod felt;
 mod figures;
@@ -24,5 +25,6 @@ mod tests;
 mod theory;
 
 pub use case::FluidScheme;
+pub use error::{CoupledError, CoupledFault};
 pub use problem::{Coupled, Surface};
 use run::{equations, run};

@@ -13,6 +13,8 @@ use crate::closures::side_wall::{self, SideWall};
 use crate::dem::drive::accepts;
 use crate::dem::{Bottom, GrainBed};
 use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
+use crate::models::BedFault;
+use crate::models::coupled::CoupledFault;
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Figure, Outcome};
 
@@ -89,7 +91,7 @@ impl Model for Coupled {
         let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let d = grains.diameter;
         if grains.density <= fluid.density {
-            faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+            faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
         let surface = match (flow.height, flow.depth) {
             (Some(height), None) => Some(Surface::Height(height)),
@@ -97,7 +99,7 @@ impl Model for Coupled {
             (height, depth) => {
                 let given = [height.map(|_| "height"), depth.map(|_| "depth")];
                 let given = given.into_iter().flatten().map(str::to_owned).collect();
-                faults.push(("flow", Fault::Surfaces { given }));
+                faults.push(("flow", CoupledFault::Surfaces { given }));
                 None
             }
         };
@@ -105,7 +107,7 @@ impl Model for Coupled {
         let count = bed.layers * (flow.length / d) * across.max(1.0);
         let mut room = |path, name: &'static str, value: f64, least: f64, most: f64| {
             if !(least..=most).contains(&value) {
-                faults.push((path, Fault::GrainRoom { name, value, least, most }));
+                faults.push((path, BedFault::GrainRoom { name, value, least, most }));
             }
         };
         room("flow.length", "flow.length", flow.length, 4.0 * d, 1e3);

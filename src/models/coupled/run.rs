@@ -2,6 +2,7 @@
 
 use std::time::Instant;
 
+use super::error::CoupledError::Fluid;
 use super::exchange::Exchange;
 use super::hold::Hold;
 use super::limits;
@@ -9,7 +10,6 @@ use super::outcome;
 use super::record::{BLOCKS, Record};
 use super::scene::{gravity, level, relief};
 use crate::closures::fluctuation::Fluctuation;
-use crate::column::ColumnError;
 use crate::dem::average::Averages;
 use crate::dem::checkpoint::{Reader, Saved, Writer};
 use crate::dem::drive::{self, Flow, Progress, Scene};
@@ -49,16 +49,6 @@ pub(super) struct Run<'a> {
     rates: f64,
 }
 
-impl From<ColumnError> for SolveError {
-    fn from(error: ColumnError) -> Self {
-        Self::Grains {
-            code: "fluid",
-            message: format!("the fluid cannot go on: {error}"),
-            hint: "a shorter discrete.coupling_period, or more grains in a cell (flow.length, flow.width, discrete.slice)",
-        }
-    }
-}
-
 impl Scene for Coupled {
     fn bed(&self) -> &GrainBed {
         &self.bed
@@ -90,13 +80,13 @@ impl<'a> Flow<'a> for Run<'a> {
             Surface::Height(height) => height,
             Surface::Depth(depth) => {
                 let highest = (0..engine.grains().len()).map(|i| engine.grains().position(i)[2]).fold(0.0, f64::max);
-                let mut dry = Exchange::new(flow, highest + bed.d, engine.grains().len())?;
+                let mut dry = Exchange::new(flow, highest + bed.d, engine.grains().len()).map_err(Fluid)?;
                 dry.look(&engine, 0.0);
                 depth + level(dry.phi(), dry.cell_height(), bed.d)
             }
         };
-        let mut exchange = Exchange::new(flow, top, engine.grains().len())?;
-        exchange.begin(&engine)?;
+        let mut exchange = Exchange::new(flow, top, engine.grains().len()).map_err(Fluid)?;
+        exchange.begin(&engine).map_err(Fluid)?;
         let limit = limit.min(exchange.drag_limit());
         let wanted = bed.discrete.time_step.unwrap_or(bed.discrete.safety * limit);
         let steps = (flow.coupling_period / wanted).ceil().max(1.0);
@@ -188,7 +178,7 @@ impl<'a> Flow<'a> for Run<'a> {
             self.turn -= 1;
             self.engine.step(&self.exchange.felt)?;
         }
-        self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps)?;
+        self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps).map_err(Fluid)?;
         limits::fluid(self.flow, &self.exchange)?;
         self.made += 1;
         if self.is_sampled() {
@@ -217,7 +207,7 @@ impl<'a> Flow<'a> for Run<'a> {
     fn end(&mut self) -> Result<(), SolveError> {
         self.exchange.look(&self.engine, self.engine.settings().dt);
         limits::grains(self.flow, &self.engine, &self.exchange)?;
-        self.downhill(true)
+        Ok(self.downhill(true)?)
     }
 
     fn advised(&self, error: SolveError) -> SolveError {

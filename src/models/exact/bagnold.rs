@@ -15,9 +15,10 @@
 pub use super::bagnold_case::GranularFilm;
 use super::{Column, balance, closure_name, outcome, outside, tabulate};
 use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE, mu_i};
+use crate::models::exact::ExactError;
 use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
-use crate::result::{Failure, Outcome, Results, SolveError, Validity, Watch, quantity as q};
+use crate::result::{Failure, Outcome, Results, Validity, Watch, quantity as q};
 use crate::units::significant;
 
 /// The closed form with its constants, in SI.
@@ -34,13 +35,13 @@ impl Solution {
     /// The closed form for a film.
     ///
     /// # Errors
-    /// [`SolveError::NoSteadyFilm`] on a slope that accelerates the grains without end.
-    pub fn new(film: &GranularFilm) -> Result<Self, SolveError> {
+    /// [`ExactError::NoSteadyFilm`] on a slope that accelerates the grains without end.
+    pub fn new(film: &GranularFilm) -> Result<Self, ExactError> {
         let tangent = film.beta.tan();
         let inertial_number = film
             .friction
             .inertial_number(tangent)
-            .ok_or(SolveError::NoSteadyFilm { tangent, mu_2: film.friction.mu_2 })?;
+            .ok_or(ExactError::NoSteadyFilm { tangent, mu_2: film.friction.mu_2 })?;
         let rate = inertial_number / film.d * (film.phi * film.g * film.beta.cos()).sqrt();
         Ok(Self { inertial_number, rate, h: film.h })
     }
@@ -215,7 +216,7 @@ mod tests {
     #[test]
     fn rest_and_runaway() {
         assert_eq!(Solution::new(&film(20.0)).unwrap().discharge(), 0.0);
-        assert!(matches!(Solution::new(&film(33.0)), Err(SolveError::NoSteadyFilm { .. })));
+        assert!(matches!(Solution::new(&film(33.0)), Err(ExactError::NoSteadyFilm { .. })));
         assert!(Solution::new(&film(32.6)).unwrap().inertial_number > 50.0);
     }
 }

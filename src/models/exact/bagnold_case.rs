@@ -5,11 +5,11 @@ use serde::{Deserialize, Serialize};
 
 use super::ExactKind;
 use super::bagnold::{equations, run};
-use crate::case::Fault;
 use crate::case::tables::{Grains, Grid, SlopeDefinition, only};
 use crate::closures::friction::{self, MuI};
 use crate::closures::role::Only;
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::models::BedFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
@@ -109,7 +109,8 @@ impl Model for OnMesh<GranularFilm> {
         let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let friction = closures.friction.0;
         if friction.mu_2 <= friction.mu_s {
-            faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s: friction.mu_s, mu_2: friction.mu_2 }));
+            faults
+                .push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s: friction.mu_s, mu_2: friction.mu_2 }));
         }
         let problem = GranularFilm {
             rho_p: grains.density,

@@ -12,6 +12,8 @@ use crate::closures::friction::{self, Coulomb, MuIv};
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::role::{Only, choice};
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
+use crate::models::BedFault;
+use crate::models::exact::ExactFault;
 
 /// A flow between two planes over a bed. Exactly one drive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -231,22 +233,22 @@ pub(in crate::models) fn laminar_bed(
 ) -> Option<LaminarBed> {
     let (fluid, grains, bed, flow, laws) = tables;
     if bed.level >= flow.height {
-        faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
+        faults.push(("bed.level", BedFault::NoRoomForFlow { level: bed.level, height: flow.height }));
     }
     if bed.level < grains.diameter {
-        faults.push(("bed.level", Fault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
+        faults.push(("bed.level", BedFault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
     }
     if grains.density <= fluid.density {
-        faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+        faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
     }
     let phi_max = laws.viscosity.phi_max();
     if bed.phi >= phi_max {
-        faults.push(("bed.phi", Fault::Jammed { phi: bed.phi, phi_max }));
+        faults.push(("bed.phi", ExactFault::Jammed { phi: bed.phi, phi_max }));
     }
     if let Some(MuIv { mu_s, mu_2, .. }) = laws.rise
         && mu_2 <= mu_s
     {
-        faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s, mu_2 }));
+        faults.push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s, mu_2 }));
     }
     let mismatch = |family: &str, law: &str, model, allowed: &[&Info]| Fault::LawMismatch {
         family: family.into(),

@@ -36,7 +36,7 @@ impl Solution {
     /// The closed form for a problem. `see` receives the residuals of the search for the gradient.
     ///
     /// # Errors
-    /// [`SolveError::NoRoot`] if the gradient for a wanted mean velocity is not found.
+    /// [`NumericalError::NoRoot`](crate::result::NumericalError::NoRoot) if the gradient for a wanted mean velocity is not found.
     pub fn new(plane: &BinghamPlane, see: impl FnMut(f64)) -> Result<Self, SolveError> {
         let BinghamPlane { eta, tau_0, h, .. } = *plane;
         match plane.drive {

@@ -5,12 +5,12 @@ use serde::{Deserialize, Serialize};
 
 use super::ExactKind;
 use super::log_law::{equations, run};
-use crate::case::Fault;
 use crate::case::tables::{Fluid, Grid, only};
 use crate::closures::mixing_length::{self, Prandtl};
 use crate::closures::role::Only;
 use crate::closures::wall::{self, Rough};
 use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve};
+use crate::models::exact::ExactFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::tables;
@@ -96,7 +96,7 @@ impl Model for OnMesh<RoughWall> {
         let LogLawTables { fluid, flow, closures, grid, .. } = tables;
         let (Only(mixing_length), Only(wall)) = (closures.mixing_length, closures.wall);
         if wall.roughness_length() >= flow.height {
-            let fault = Fault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
+            let fault = ExactFault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
             faults.push(("closures.wall.k_s", fault));
         }
         let problem = RoughWall {

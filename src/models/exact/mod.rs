@@ -7,18 +7,20 @@ pub(in crate::models) mod bed_results;
 pub mod bingham;
 mod bingham_case;
 mod brinkman;
+mod error;
 pub mod log_law;
 mod log_law_case;
 pub mod ouriemi;
+
+pub(in crate::models) use error::no_root;
+pub use error::{ExactError, ExactFault};
 
 use std::ops::ControlFlow;
 
 use crate::case::tables::only;
 use crate::models::premises::outside;
-use crate::numerics::root::NoRoot;
 use crate::result::{
-    Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, SolveError, Status, Validity, Watch,
-    quantity,
+    Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, Status, Validity, Watch, quantity,
 };
 use bed_results::closure_name;
 
@@ -81,14 +83,4 @@ fn residuals(history: Vec<f64>) -> Result<Series, Failure> {
 
 pub(in crate::models) fn balance(name: &str, relative: f64, how: &str) -> Balance {
     Balance { name: name.into(), relative, how: how.into() }
-}
-
-pub(in crate::models) fn no_root(equation: &'static str) -> impl Fn(NoRoot) -> SolveError {
-    move |NoRoot { low, high, residual, evaluations }| SolveError::NoRoot {
-        equation,
-        iterations: evaluations,
-        residual,
-        low,
-        high,
-    }
 }

@@ -7,7 +7,7 @@ use crate::dem::domain::{Domain, Wall};
 use crate::dem::engine::{Engine, Settings};
 use crate::dem::grains::Grain;
 use crate::dem::keep::{contact_equations, law};
-use crate::models::grains::Impact;
+use crate::models::grains::{Impact, ImpactError};
 use crate::result::{Balance, Failure, Outcome, Results, SolveError, Status, Watch, quantity as q};
 use crate::units::significant;
 
@@ -80,11 +80,7 @@ pub fn follow_from(impact: &Impact, touch: f64) -> Result<Found, SolveError> {
     let depth = 2.0 * v / (frequency * r);
     let settings = Settings { largest_overlap: 0.9, ..Settings::new(dt, [0.0; 3], impact.d) };
     if depth > 1.8 {
-        return Err(SolveError::Grains {
-            code: "overlap",
-            message: format!("the grain would sink {depth:.2} radii deep: such an impact is none"),
-            hint: "stiffer contacts (closures.contact.k_n) or a slower impact (flow.velocity)",
-        });
+        return Err(ImpactError::TooDeep { radii: depth }.into());
     }
     let mut engine = Engine::new(&grains, domain, law, settings, 1)?;
     let before = engine.grains().kinetic_energy();
@@ -102,11 +98,7 @@ pub fn follow_from(impact: &Impact, touch: f64) -> Result<Found, SolveError> {
         engine.step(&Nothing)?;
     }
     if engine.steps() >= MOST {
-        return Err(SolveError::Grains {
-            code: "no-parting",
-            message: format!("the grain has not left its target after {MOST} steps"),
-            hint: "a larger restitution coefficient (closures.contact.e_n) or fewer discrete.steps_per_contact",
-        });
+        return Err(ImpactError::NoParting { steps: MOST }.into());
     }
     let all = engine.grains();
     let place = all.places();

@@ -2,8 +2,10 @@
 
 mod bed;
 pub mod case;
+mod error;
 pub(crate) mod impact;
 mod problem;
 pub(crate) mod trials;
 
+pub use error::ImpactError;
 pub use problem::{Impact, Trial};

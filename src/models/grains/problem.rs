@@ -2,12 +2,12 @@
 
 use super::case::{GrainsBedTables, ImpactTables, Target, Trial as Which, TrialTables};
 use super::{bed, impact, trials};
-use crate::case::Fault;
 use crate::closures::contact::{LinearSpring, linear_spring};
 use crate::closures::role::Only;
 use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
 use crate::model::{Description, Faults, Model, ModelInfo, Solve};
+use crate::models::BedFault;
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Outcome};
 
@@ -66,7 +66,7 @@ impl Model for GrainBed {
         let count = bed.layers * (flow.length / d) * (flow.width / d);
         let wide = |name: &'static str, length: f64, least: f64, faults: &mut Faults| {
             if length < least * d {
-                faults.push((name, Fault::GrainRoom { name, value: length, least: least * d, most: 1e3 }));
+                faults.push((name, BedFault::GrainRoom { name, value: length, least: least * d, most: 1e3 }));
             }
         };
         wide("flow.length", flow.length, 4.0, faults);
@@ -74,7 +74,7 @@ impl Model for GrainBed {
         let possible = (1.0..=MOST_GRAINS).contains(&count);
         if !possible {
             let name = "the number of mobile grains";
-            faults.push(("bed.layers", Fault::GrainRoom { name, value: count, least: 1.0, most: MOST_GRAINS }));
+            faults.push(("bed.layers", BedFault::GrainRoom { name, value: count, least: 1.0, most: MOST_GRAINS }));
         }
         let Only(contact) = closures.contact;
         Some(Self {

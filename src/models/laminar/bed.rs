@@ -9,6 +9,7 @@ use crate::closures::drag::CarmanKozeny;
 use crate::closures::friction::MuIv;
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::regularisation::Regularisation;
+use crate::models::BedError;
 use crate::models::exact::ouriemi::Scaled;
 use crate::result::SolveError;
 
@@ -130,12 +131,12 @@ impl Bed {
     /// Solves the bed with the given regularisation.
     ///
     /// # Errors
-    /// [`SolveError::NoStaticBed`] and [`SolveError::WholeBedMoves`] where the grains yield down to the lower wall,
-    /// [`SolveError::NotConverged`] if round-off is not reached.
+    /// [`BedError::NoStaticBed`] and [`BedError::WholeBedMoves`] where the grains yield down to the lower wall,
+    /// [`NumericalError::NotConverged`](crate::result::NumericalError::NotConverged) if round-off is not reached.
     pub fn solve(&self, nodes: Nodes, regularisation: &Regularisation) -> Result<Solution, SolveError> {
         let hold = self.mu_s * self.phi;
         if self.f >= hold {
-            return Err(SolveError::NoStaticBed { drive: self.f, limit: hold });
+            return Err(BedError::NoStaticBed { drive: self.f, limit: hold }.into());
         }
         match self.k {
             None => self.mixed(nodes, regularisation),
@@ -199,11 +200,12 @@ impl Bed {
     }
 
     pub(super) fn whole_bed(&self, level: f64) -> SolveError {
-        SolveError::WholeBedMoves {
+        BedError::WholeBedMoves {
             mobile_depth_m: self.h_p - level.min(0.0),
             bed_m: self.h_p,
             limit_pa_m: self.largest_drive(),
         }
+        .into()
     }
 }
 

@@ -6,6 +6,8 @@ use super::bed::{Bed, Dilation, Nodes, Solution};
 use super::mesh::Mesh;
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::Regularisation;
+use crate::models::BedError;
+use crate::models::bed_error::in_si;
 use crate::models::exact::bed::{Drive, LaminarBed};
 use crate::models::exact::bed_results::BedNumbers;
 use crate::models::exact::ouriemi::viscosity_text;
@@ -41,7 +43,7 @@ impl Bed {
 /// Solves the bed on `cells` elements.
 ///
 /// # Errors
-/// As [`Bed::solve`], in SI, and [`SolveError::OutOfReach`] if no drive gives the wanted Shields number.
+/// As [`Bed::solve`], in SI, and [`BedError::OutOfReach`] if no drive gives the wanted Shields number.
 pub fn run(problem: &RegularisedBed, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let RegularisedBed { bed, regularisation, yield_node } = problem;
     let nodes = Nodes { elements: cells, on_yield: *yield_node };
@@ -101,21 +103,10 @@ fn drive(bed: &LaminarBed, nodes: Nodes, regularisation: &Regularisation) -> Res
     }
     let largest = largest.unwrap_or(0.0);
     if wanted > largest {
-        return Err(SolveError::OutOfReach { quantity: "shields", wanted, largest });
+        return Err(BedError::OutOfReach { quantity: "shields", wanted, largest }.into());
     }
     brent(|f| shields(f).map_or(f64::NAN, |theta| theta / wanted - 1.0), low, high, |_| {})
         .map_err(no_root("the drive for the wanted Shields number"))
-}
-
-fn in_si(error: SolveError, bed: &LaminarBed) -> SolveError {
-    match error {
-        SolveError::WholeBedMoves { mobile_depth_m, bed_m, limit_pa_m } => SolveError::WholeBedMoves {
-            mobile_depth_m: mobile_depth_m * bed.h,
-            bed_m: bed_m * bed.h,
-            limit_pa_m: limit_pa_m * (bed.rho_p - bed.rho_f) * bed.g,
-        },
-        other => other,
-    }
 }
 
 fn numbers(bed: &Bed, solution: &Solution) -> BedNumbers {

@@ -19,7 +19,7 @@ use crate::units::significant;
 /// Solves the cavity on `cells` by `cells` cells.
 ///
 /// # Errors
-/// [`SolveError::Unsettled`] if the method does not get there, [`SolveError::NotRepresentable`] if numbers leave their range.
+/// [`SectionError::Unsettled`](crate::models::section::SectionError::Unsettled) if the method does not get there, [`NumericalError::NotRepresentable`](crate::result::NumericalError::NotRepresentable) if numbers leave their range.
 pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let cavity = Cavity::new(flow.bingham(), cells, flow.solver.finest);
     let law = &flow.regularisation;

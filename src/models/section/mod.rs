@@ -13,6 +13,7 @@ mod cavity_outcome;
 mod dual;
 mod duct;
 mod element;
+mod error;
 mod fit;
 mod full;
 mod mesh;
@@ -28,5 +29,6 @@ mod tests;
 
 pub use case::Method;
 use cavity_outcome::{equations as cavity_equations, run as run_cavity};
+pub use error::{SectionError, SectionFault};
 use outcome::{equations, run};
 pub use problem::{CavityFlow, Contents, Duct, DuctBed, DuctFlow, Outline, SectionMethod};

@@ -12,12 +12,13 @@ use super::solve::Solution;
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::models::premises::{self, outside};
+use crate::models::section::SectionError;
 use crate::models::section::{Contents, DuctFlow, Method, Outline};
-use crate::result::Field;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Results, Series, Snapshot, SolveError, Status, TableError, Validity, Watch,
     quantity as q, quantity::Quantity,
 };
+use crate::result::{Field, NumericalError};
 use crate::units::significant;
 
 impl Stalled {
@@ -25,14 +26,15 @@ impl Stalled {
     #[must_use]
     pub fn into_error(self, method: Method, shear: f64) -> SolveError {
         match self {
-            Self::Unsettled { change, iterations, lambda } if change.is_finite() => SolveError::Unsettled {
+            Self::Unsettled { change, iterations, lambda } if change.is_finite() => SectionError::Unsettled {
                 method: if method == Method::Newton { "newton" } else { "first-order" },
                 change,
                 iterations,
                 lambda_1_s: lambda * shear,
-            },
-            Self::Unsettled { .. } => SolveError::NotRepresentable { name: "the velocity".into() },
-            Self::Stopped | Self::Matrix(_) => SolveError::NotRepresentable { name: "the matrix".into() },
+            }
+            .into(),
+            Self::Unsettled { .. } => NumericalError::NotRepresentable { name: "the velocity".into() }.into(),
+            Self::Stopped | Self::Matrix(_) => NumericalError::NotRepresentable { name: "the matrix".into() }.into(),
         }
     }
 }
@@ -57,7 +59,7 @@ impl Duct {
 /// Solves the duct on `cells` elements from the bottom to the top.
 ///
 /// # Errors
-/// [`SolveError::Unsettled`] if the method does not get there, [`SolveError::NotRepresentable`] if numbers leave their range.
+/// [`SectionError::Unsettled`] if the method does not get there, [`NumericalError::NotRepresentable`] if numbers leave their range.
 pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let duct = Duct::scaled(flow);
     let law = &flow.regularisation;

@@ -2,11 +2,11 @@
 
 use super::case::{CavityTables, DuctBedTables, DuctTables, Method, SectionGrid, SectionSolver, Shape};
 use super::{cavity_equations, equations, run, run_cavity, study};
-use crate::case::Fault;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
 use crate::models::exact::bed::LaminarFlow;
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
+use crate::models::section::SectionFault;
 use crate::models::yielding::size;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
@@ -133,7 +133,7 @@ fn whole(duct: &DuctFlow, faults: &mut Faults) {
     let slips = matches!(&duct.contents, Contents::Bed(bed) if bed.drag.is_some());
     let dual = duct.solver.method == Method::FirstOrder;
     if duct.along.is_some() && (slips || dual || duct.outline == Outline::Planes) {
-        faults.push(("grid.along", Fault::NotWhole));
+        faults.push(("grid.along", SectionFault::NotWhole));
     }
 }
 
@@ -145,13 +145,13 @@ fn outline(shape: Shape, width: Option<f64>, faults: &mut Faults) -> Option<Outl
         (Shape::Rectangle, None) => Some(Outline::Rectangle { width: 1.0 }),
         (Shape::Rectangle, Some(width)) if (WIDTHS.0..=WIDTHS.1).contains(&width) => Some(Outline::Rectangle { width }),
         (Shape::Rectangle, Some(width)) => {
-            faults.push(("flow.width", Fault::Slender { ratio: width, low: WIDTHS.0, high: WIDTHS.1 }));
+            faults.push(("flow.width", SectionFault::Slender { ratio: width, low: WIDTHS.0, high: WIDTHS.1 }));
             None
         }
         (Shape::Circle, None) => Some(Outline::Circle),
         (Shape::Planes, None) => Some(Outline::Planes),
         (Shape::Circle | Shape::Planes, Some(_)) => {
-            faults.push(("flow.width", Fault::NoWidth));
+            faults.push(("flow.width", SectionFault::NoWidth));
             None
         }
     }
@@ -165,7 +165,7 @@ fn solver(
     faults: &mut Faults,
 ) -> Option<SectionMethod> {
     if method == Method::FirstOrder && law != Smoothing::None {
-        faults.push(("model.method", Fault::DualIsExact));
+        faults.push(("model.method", SectionFault::DualIsExact));
         return None;
     }
     Some(SectionMethod {

@@ -105,7 +105,7 @@ impl Flow {
     /// Newton's method from grains of one solid fraction.
     ///
     /// # Errors
-    /// [`SolveError::NotConverged`].
+    /// [`NumericalError::NotConverged`](crate::result::NumericalError::NotConverged).
     pub fn solve(mut self) -> Result<Self, SolveError> {
         let mut least = f64::INFINITY;
         for _ in 0..MOST {

@@ -17,7 +17,7 @@ pub use problem::ShearCell;
 /// Solves the flow on `cells` intervals.
 ///
 /// # Errors
-/// `SolveError::NotConverged`.
+/// [`NumericalError::NotConverged`](crate::result::NumericalError::NotConverged).
 fn run(cell: &ShearCell, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     if watch.see(&Snapshot { stage: "shear cell", fraction: 0.0, quantity: None }).is_break() {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());

@@ -6,6 +6,7 @@ use crate::case::Fault;
 use crate::closures::Info;
 use crate::closures::kinetic::{Granular, Kinetic, Stresses};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
+use crate::models::BedFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 
@@ -43,7 +44,7 @@ impl Model for OnMesh<ShearCell> {
             faults.push(("flow.phi", Fault::OutOfRange { name: "phi".into(), value: flow.phi, allowed }));
         }
         if flow.height < grains.diameter {
-            let fault = Fault::ThinnerThanAGrain { level: flow.height, diameter: grains.diameter };
+            let fault = BedFault::ThinnerThanAGrain { level: flow.height, diameter: grains.diameter };
             faults.push(("flow.height", fault));
         }
         let (e, mu_p) = (grains.restitution, grains.friction);

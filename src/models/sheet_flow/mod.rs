@@ -9,6 +9,7 @@ mod bed;
 pub mod case;
 mod column;
 mod equations;
+mod error;
 mod figures;
 mod flow;
 mod iteration;
@@ -28,6 +29,7 @@ mod tests;
 
 pub use case::{BedReading, SheetMethod};
 use equations::equations;
+pub use error::{SheetFlowError, SheetFlowFault};
 use outcome::run;
 pub use problem::SheetFlow;
 

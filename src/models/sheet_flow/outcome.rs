@@ -14,11 +14,15 @@ use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE};
 use crate::closures::lid::{Lid, colebrook_white};
 use crate::closures::suspension::{Suspension, rouse};
 use crate::closures::{Info, Range};
+use crate::models::BedError;
 use crate::models::exact::bed_results::closure_name;
 use crate::models::exact::{balance, outcome};
 use crate::models::premises::outside;
+use crate::models::sheet_flow::SheetFlowError;
 use crate::models::sheet_flow::{BedReading, SheetFlow, SheetMethod};
-use crate::result::{Balance, Failure, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q};
+use crate::result::{
+    Balance, Failure, NumericalError, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q,
+};
 
 /// A continuum layer is at least a few grains thick.
 const THICKNESS: Range = Range { variable: "sheet_thickness_m/d", min: 3.0, max: f64::INFINITY };
@@ -39,7 +43,7 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     // Not for a number that is none, either.
     let representable = scaled.into_iter().chain(given).all(|x| x.abs() < LARGEST);
     if !representable {
-        return Err(SolveError::NotRepresentable { name: "the flow in units of its grains".into() }.into());
+        return Err(NumericalError::NotRepresentable { name: "the flow in units of its grains".into() }.into());
     }
     let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
     let solved = match sheet.method {
@@ -60,7 +64,7 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     }
     let solved = solved.map_err(|stalled| unsolved(sheet, &flow, &setting, stalled))?;
     if !sheet.deepen_cut && solved.change_of_type * sheet.d > sheet.cut {
-        return Err(SolveError::ChangeOfType { depth_m: solved.change_of_type * sheet.d, cut_m: sheet.cut }.into());
+        return Err(SheetFlowError::ChangeOfType { depth_m: solved.change_of_type * sheet.d, cut_m: sheet.cut }.into());
     }
     let layers = Layers::new(&solved.column, &solved.state);
     refuse(sheet, &solved, &layers)?;
@@ -78,22 +82,22 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
 fn unsolved<F: FrictionLaw>(sheet: &SheetFlow<F>, flow: &Flow<F>, setting: &Setting, stalled: Stalled) -> SolveError {
     match stalled.reason {
         Some(Reason::RunsAway(level)) => {
-            return SolveError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d };
+            return SheetFlowError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d }.into();
         }
         Some(Reason::AllMove) => {
             let tau_b = setting.tau_b.unwrap_or_else(|| {
                 let room = setting.height - setting.level;
                 flow.fluid_weight(setting.sine.unwrap_or_default()) * room
             });
-            return SolveError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
+            return SheetFlowError::NothingAtRest { bed_m: sheet.level, shields: tau_b }.into();
         }
-        Some(Reason::Locked(carried)) => return SolveError::Locked { carried },
+        Some(Reason::Locked(carried)) => return SheetFlowError::Locked { carried }.into(),
         None => {}
     }
     // The stress of the interface alone needs this much weight of grains to be held.
     let grains = flow.dilatancy.phi_max * setting.level;
     if let Some(tau_b) = setting.tau_b.filter(|tau_b| *tau_b >= flow.friction.least() * grains) {
-        return SolveError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
+        return SheetFlowError::NothingAtRest { bed_m: sheet.level, shields: tau_b }.into();
     }
     // Grains at rest in a deep bed carry the slope of the whole mixture, at most mu_s P_p.
     let sine = setting.sine.or_else(|| {
@@ -104,25 +108,25 @@ fn unsolved<F: FrictionLaw>(sheet: &SheetFlow<F>, flow: &Flow<F>, setting: &Sett
         let cosine = (1.0 - sine * sine).max(0.0).sqrt();
         let drive = sine * (1.0 / (flow.delta * flow.dilatancy.phi_max) + 1.0);
         if drive >= flow.friction.least() * cosine {
-            return SolveError::NoStaticBed { drive, limit: flow.friction.least() * cosine };
+            return BedError::NoStaticBed { drive, limit: flow.friction.least() * cosine }.into();
         }
     }
     SolveError::not_converged(stalled.residual, stalled.iterations)
 }
 
 /// Refuses a solution of the equations that is none of the flow.
-fn refuse<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &Layers) -> Result<(), SolveError> {
+fn refuse<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &Layers) -> Result<(), SheetFlowError> {
     let (flow, state, d) = (&solved.column.flow, &solved.state, sheet.d);
     let bottom = solved.column.mesh.cells() - 1;
     if state.rest < 0.0 || (solved.column.floor == Floor::Bottom && state.r(bottom) >= flow.friction.least()) {
-        return Err(SolveError::NothingAtRest { bed_m: layers.z[0] * d, shields: state.tau_b });
+        return Err(SheetFlowError::NothingAtRest { bed_m: layers.z[0] * d, shields: state.tau_b });
     }
     if layers.lid < -1e-9 * state.tau_b {
-        return Err(SolveError::LidPushes { stress_pa: layers.lid * sheet.stress_scale() });
+        return Err(SheetFlowError::LidPushes { stress_pa: layers.lid * sheet.stress_scale() });
     }
     let whole = flow.dilatancy.phi_max * sheet.level;
     if sheet.reading == BedReading::Initial && layers.totals.volume * d >= whole {
-        return Err(SolveError::BedSuspended { suspended_m: layers.totals.volume * d, bed_m: whole });
+        return Err(SheetFlowError::BedSuspended { suspended_m: layers.totals.volume * d, bed_m: whole });
     }
     Ok(())
 }

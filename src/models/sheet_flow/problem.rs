@@ -18,6 +18,8 @@ use crate::model::{
     COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
     Term, TermTest, TurbulentScene,
 };
+use crate::models::sheet_flow::SheetFlowFault;
+use crate::models::{BedFault, RegularisationSize};
 use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
@@ -100,19 +102,19 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
     fn build(tables: &SheetFlowTables<F>, faults: &mut Faults) -> Option<Self> {
         let SheetFlowTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
         if bed.level >= flow.height {
-            faults.push(("bed.level", Fault::NoRoomForFlow { level: bed.level, height: flow.height }));
+            faults.push(("bed.level", BedFault::NoRoomForFlow { level: bed.level, height: flow.height }));
         }
         if bed.level < grains.diameter {
-            faults.push(("bed.level", Fault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
+            faults.push(("bed.level", BedFault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
         }
         if grains.density <= fluid.density {
-            faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+            faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
         let (Only(friction), Only(dilatancy)) = (closures.friction, closures.dilatancy);
         let (Only(drag), Only(mixing_length)) = (closures.drag, closures.mixing_length);
         let phi_max = closures.mixture_viscosity.phi_max();
         if phi_max < dilatancy.phi_max {
-            let fault = Fault::PackedBeyond { law: "the viscosity", phi_max, bed: dilatancy.phi_max };
+            let fault = SheetFlowFault::PackedBeyond { law: "the viscosity", phi_max, bed: dilatancy.phi_max };
             faults.push(("closures.mixture_viscosity.phi_max", fault));
         }
         let drives: Vec<String> = [flow.shields, flow.u_star, flow.slope]
@@ -133,13 +135,13 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
         let sine = flow.slope.map(|slope| slope_sine(slope, flow.slope_definition, faults));
         let (mu_s, mu_2) = (friction.least(), friction.most());
         if mu_2 <= mu_s {
-            faults.push(("closures.friction.mu_2", Fault::FrictionFalls { mu_s, mu_2 }));
+            faults.push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s, mu_2 }));
         }
         if mixing_length.phi_max < dilatancy.phi_max || mixing_length.below_packed == BelowPacked::Zero {
             let (phi_max, bed) = (mixing_length.phi_max, dilatancy.phi_max);
             faults.push((
                 "closures.mixing_length.phi_max",
-                Fault::PackedBeyond { law: "the mixing length", phi_max, bed },
+                SheetFlowFault::PackedBeyond { law: "the mixing length", phi_max, bed },
             ));
         }
         let lambda = match (regularisation.law, regularisation.lambda) {
@@ -147,13 +149,12 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             (SheetSmoothing::Simple, Some(lambda)) => Some(lambda),
             (law, given) => {
                 let exact = law == SheetSmoothing::None;
-                faults
-                    .push(("regularisation", Fault::RegularisationSize { given: usize::from(given.is_some()), exact }));
+                faults.push(("regularisation", RegularisationSize { given: usize::from(given.is_some()), exact }));
                 None
             }
         };
         if tables.model.method == SheetMethod::Iteration && lambda == Some(0.0) {
-            faults.push(("model.method", Fault::IterationNeedsCreep));
+            faults.push(("model.method", SheetFlowFault::IterationNeedsCreep));
         }
         let (lambda, sine) = (lambda?, sine.map_or(Some(None), |sine| sine.map(Some))?);
         let problem = SheetFlow {

@@ -7,7 +7,8 @@ use super::outcome::{column, report};
 use super::transient::{March, Stuck};
 use crate::models::exact::balance;
 use crate::models::two_fluid::TwoFluid;
-use crate::result::{Failure, Outcome, Series, Snapshot, SolveError, Status, Watch, quantity as q};
+use crate::models::two_fluid::TwoFluidError;
+use crate::result::{Failure, Outcome, Series, Snapshot, Status, Watch, quantity as q};
 
 /// One sample.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +23,7 @@ struct Sample {
 /// Follows the flow for its whole time on `cells` cells.
 ///
 /// # Errors
-/// [`SolveError::StuckInTime`] with the flow until then.
+/// [`TwoFluidError::StuckInTime`] with the flow until then.
 pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let column = column(flow, cells)?;
     let unit = flow.d / flow.velocity_scale();
@@ -73,8 +74,8 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
     match stuck {
         None => Ok(outcome),
         Some(Stuck { time, dt, residual }) => {
-            let error = SolveError::StuckInTime { time_s: time * unit, step_s: dt * unit, residual };
-            Err(Failure { error, last: Some(Box::new(outcome)) })
+            let error = TwoFluidError::StuckInTime { time_s: time * unit, step_s: dt * unit, residual };
+            Err(Failure { error: error.into(), last: Some(Box::new(outcome)) })
         }
     }
 }

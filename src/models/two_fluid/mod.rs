@@ -8,6 +8,7 @@
 pub mod case;
 mod cell;
 mod equations;
+mod error;
 mod face;
 mod figures;
 mod in_time;
@@ -29,5 +30,6 @@ mod transient;
 
 pub use case::{CollidingGrains, FluidStress, State};
 use equations::equations;
+pub use error::{TwoFluidError, TwoFluidFault};
 use outcome::run;
 pub use problem::TwoFluid;

@@ -16,8 +16,9 @@ use crate::closures::kinetic::{Granular, garzo_dufty};
 use crate::models::exact::bed_results::closure_name;
 use crate::models::exact::{balance, outcome};
 use crate::models::premises::outside;
+use crate::models::two_fluid::TwoFluidError;
 use crate::models::two_fluid::{State, TwoFluid};
-use crate::result::{Balance, Failure, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q};
+use crate::result::{Balance, Failure, NumericalError, Outcome, Results, Snapshot, Validity, Watch, quantity as q};
 
 /// Scaled numbers from which on products of a few of them overflow.
 const LARGEST: f64 = 1e60;
@@ -43,7 +44,7 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     if stopped {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
     }
-    let solved = solved.map_err(|Stalled { residual, iterations }| SolveError::NoSteadyFlow {
+    let solved = solved.map_err(|Stalled { residual, iterations }| TwoFluidError::NoSteadyFlow {
         residual,
         iterations,
         shields: flow.shields(),
@@ -62,7 +63,7 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
 }
 
 /// The column of the flow, in units of its grains.
-pub(super) fn column(flow: &TwoFluid, cells: usize) -> Result<Column, SolveError> {
+pub(super) fn column(flow: &TwoFluid, cells: usize) -> Result<Column, NumericalError> {
     let laws = Laws::scaled(flow);
     let height = (flow.thickness + flow.depth) / flow.d;
     let solids = flow.phi * flow.thickness / flow.d;
@@ -70,7 +71,7 @@ pub(super) fn column(flow: &TwoFluid, cells: usize) -> Result<Column, SolveError
     // Not for a number that is none, either.
     let representable = scaled.into_iter().all(|x| x.abs() < LARGEST);
     if !representable {
-        return Err(SolveError::NotRepresentable { name: "the flow in units of its grains".into() });
+        return Err(NumericalError::NotRepresentable { name: "the flow in units of its grains".into() });
     }
     let spacing = Spacing { height, level: flow.thickness / flow.d, fine: flow.fine.map(|fine| fine / flow.d) };
     Ok(Column { laws, widths: spacing.widths(cells), spacing, solids })

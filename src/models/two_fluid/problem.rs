@@ -12,6 +12,8 @@ use crate::model::{
     BULK_FRICTION, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
     TurbulentScene,
 };
+use crate::models::BedFault;
+use crate::models::two_fluid::TwoFluidFault;
 use crate::result::Context;
 use crate::result::{Failure, Figure, Outcome};
 use crate::units::significant;
@@ -102,10 +104,10 @@ impl Model for OnMesh<TwoFluid> {
         let slope = flow.slope_definition.angle(flow.slope);
         let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
         if grains.density <= fluid.density {
-            faults.push(("grains.density", Fault::Floating { grains: grains.density, fluid: fluid.density }));
+            faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
         if bed.thickness < grains.diameter {
-            let fault = Fault::ThinnerThanAGrain { level: bed.thickness, diameter: grains.diameter };
+            let fault = BedFault::ThinnerThanAGrain { level: bed.thickness, diameter: grains.diameter };
             faults.push(("bed.thickness", fault));
         }
         if bed.phi >= bed.phi_max {
@@ -119,7 +121,7 @@ impl Model for OnMesh<TwoFluid> {
         if let Granular::Inertial(law) = closures.granular
             && law.mu_2 <= law.mu_s
         {
-            faults.push(("closures.granular.mu_2", Fault::FrictionFalls { mu_s: law.mu_s, mu_2: law.mu_2 }));
+            faults.push(("closures.granular.mu_2", BedFault::FrictionFalls { mu_s: law.mu_s, mu_2: law.mu_2 }));
         }
         if let MixingLength::LiSawamoto(law) = closures.mixing_length
             && law.below_packed == BelowPacked::Zero
@@ -151,7 +153,7 @@ impl Model for OnMesh<TwoFluid> {
             }
         };
         if flow.oscillation.is_some() && tables.model.state == State::Steady {
-            faults.push(("flow.oscillation", Fault::NeedsTime));
+            faults.push(("flow.oscillation", TwoFluidFault::NeedsTime));
         }
         let problem = TwoFluid {
             rho_f: fluid.density,

@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::{ALIKE, Parameters, Target, report};
+use super::{ALIKE, Parameters, Target, Unfit, report};
 use crate::compare::{Subject, percent};
 use crate::numerics::least_squares::{Ended, Fit, Statistics};
 use crate::result::ErrorReport;
@@ -290,18 +290,18 @@ impl Found {
     }
 
     fn failure(&self, ended: &Ended<ErrorReport>) -> ErrorReport {
-        let (code, message, hint) = match ended {
+        let (kind, message, hint) = match ended {
             Ended::NoInfluence(i) => {
                 let key = &self.parameters.keys[*i];
-                ("no-influence", format!("no value of the data depends on {key}"), format!("leave --fit {key} out"))
+                (Unfit::NoInfluence, format!("no value of the data depends on {key}"), format!("leave --fit {key} out"))
             }
             Ended::Blocked(error) => (
-                "fit-blocked",
+                Unfit::Blocked,
                 format!("the fit wants to go on to where the case has no answer: {}", error.message),
                 "start elsewhere with --set, or fit fewer parameters; the best values are in the folder".into(),
             ),
             Ended::NotConverged => (
-                "fit-not-converged",
+                Unfit::NotConverged,
                 format!(
                     "the fit did not reach a minimum in {} runs of the model: {} standard errors are left",
                     self.fit.evaluations,
@@ -310,7 +310,7 @@ impl Found {
                 "start elsewhere with --set, or fit fewer parameters; the best values are in the folder".to_owned(),
             ),
         };
-        ErrorReport { hint: Some(hint), ..report(code, message) }
+        ErrorReport { hint: Some(hint), ..report(kind.code(), message) }
     }
 }
 

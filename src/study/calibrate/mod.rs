@@ -26,7 +26,7 @@ use crate::model::Registry;
 use crate::numerics::least_squares::Statistics;
 use crate::output::fingerprint;
 use crate::result::quantity::Quantity;
-use crate::result::{ErrorReport, Quiet, Snapshot, Watch};
+use crate::result::{ErrorReport, Quiet, Snapshot, Watch, codes};
 
 /// Magnitude of the correlation from which two parameters cannot be told apart.
 pub const ALIKE: f64 = 0.95;
@@ -67,6 +67,25 @@ impl Request {
     }
 }
 
+/// Why there is no fit, besides what its case says.
+pub(crate) enum Unfit {
+    NoInfluence,
+    Blocked,
+    NotConverged,
+    Undefined,
+    NoProfile,
+    Refused,
+}
+
+codes!(Unfit {
+    Self::NoInfluence => "no-influence",
+    Self::Blocked => "fit-blocked",
+    Self::NotConverged => "fit-not-converged",
+    Self::Undefined => "data-undefined",
+    Self::NoProfile => "no-profile",
+    Self::Refused => "refused",
+});
+
 fn report(code: &str, message: String) -> ErrorReport {
     ErrorReport { code: code.into(), message, path: None, line: None, allowed: None, hint: None }
 }
@@ -95,7 +114,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Next), Stud
             let parameters = parameters.clone();
             Box::new(move |_, observer| follow(parameters, measured, target, observer))
         }
-        Err(error) if error.code == "no-profile" => {
+        Err(error) if error.code == Unfit::NoProfile.code() => {
             let hint = "fit a case with a profile".into();
             return Err(StudyError::BadData { file: request.case.clone(), reason: error.message, hint });
         }

@@ -1,6 +1,7 @@
 //! What is fitted: positive numbers of a case, by their logarithms, within bounds.
 
-use super::{Listening, MISFIT, Request, Target, report};
+use super::super::STOPPED;
+use super::{Listening, MISFIT, Request, Target, Unfit, report};
 use crate::case::{Case, nearest};
 use crate::model::Registry;
 use crate::numerics::least_squares::{self, Fit};
@@ -117,13 +118,13 @@ impl Parameters {
     pub fn profile(&self, ln: &[f64], watch: &mut dyn Watch) -> Result<Profile, ErrorReport> {
         let overrides = [&self.overrides[..], &self.settings(ln)].concat();
         let (_, problem) = self.registry.load(&self.case, &overrides).map_err(|error| {
-            error.reports().into_iter().next().unwrap_or_else(|| report("refused", error.to_string()))
+            error.reports().into_iter().next().unwrap_or_else(|| report(Unfit::Refused.code(), error.to_string()))
         })?;
         let outcome = problem.run(&mut Context::new(watch)).map_err(|failure| ErrorReport {
             hint: Some(failure.error.hint()),
             ..report(failure.error.code(), failure.error.to_string())
         })?;
-        outcome.profile.ok_or_else(|| report("no-profile", "the model has no profile".into()))
+        outcome.profile.ok_or_else(|| report(Unfit::NoProfile.code(), "the model has no profile".into()))
     }
 
     /// Fits the parameters to `target`, from the values of the case.
@@ -133,7 +134,7 @@ impl Parameters {
     pub fn fit(&self, target: &Target, observer: &dyn Observer) -> Result<Fit<ErrorReport>, ErrorReport> {
         let residuals = |ln: &[f64]| {
             if observer.stop() {
-                return Err(report("stopped", "stopped by the user".into()));
+                return Err(report(STOPPED, "stopped by the user".into()));
             }
             target.residuals(&self.profile(ln, &mut Listening(observer))?)
         };

@@ -1,6 +1,6 @@
 //! What is fitted: measured columns, level by level, each with its weight.
 
-use super::report;
+use super::{Unfit, report};
 use crate::compare::Subject;
 use crate::compare::norms::interpolated;
 use crate::result::quantity::{COLUMNS, Quantity, find};
@@ -124,7 +124,10 @@ impl Target {
             for level in &column.levels {
                 let value = nearby(model, column.quantity, level.z).ok_or_else(|| {
                     let (name, z) = (column.quantity.name, level.z);
-                    report("data-undefined", format!("{name} is no longer defined at z = {z} m, where it was measured"))
+                    report(
+                        Unfit::Undefined.code(),
+                        format!("{name} is no longer defined at z = {z} m, where it was measured"),
+                    )
                 })?;
                 residuals.push((value - level.value) / level.sigma);
             }

@@ -34,6 +34,8 @@ pub use outcome::{equations, run};
 
 use super::brinkman::Brinkman;
 use super::no_root;
+use crate::models::BedError;
+use crate::models::bed_error::in_si;
 use crate::models::exact::bed::{Drive, LaminarBed};
 use crate::numerics::root::brent;
 use crate::result::SolveError;
@@ -93,11 +95,11 @@ impl Scaled {
     /// The closed form. `see` receives the residuals of the search for the yield level.
     ///
     /// # Errors
-    /// [`SolveError::NoStaticBed`] if the drive exceeds the friction, [`SolveError::WholeBedMoves`] in units of H if the mixed
-    /// form has no static layer, [`SolveError::NoRoot`] if the yield level is not found.
+    /// [`BedError::NoStaticBed`] if the drive exceeds the friction, [`BedError::WholeBedMoves`] in units of H if the mixed
+    /// form has no static layer, [`NumericalError::NoRoot`](crate::result::NumericalError::NoRoot) if the yield level is not found.
     pub fn solve(self, see: impl FnMut(f64)) -> Result<Solution, SolveError> {
         if self.f >= self.hold {
-            return Err(SolveError::NoStaticBed { drive: self.f, limit: self.hold });
+            return Err(BedError::NoStaticBed { drive: self.f, limit: self.hold }.into());
         }
         match self.k {
             None => self.mixed(),
@@ -108,11 +110,12 @@ impl Scaled {
     fn mixed(self) -> Result<Solution, SolveError> {
         let y = self.mixed_depth();
         if y >= self.h_p {
-            return Err(SolveError::WholeBedMoves {
+            return Err(BedError::WholeBedMoves {
                 mobile_depth_m: y,
                 bed_m: self.h_p,
                 limit_pa_m: self.largest_drive(),
-            });
+            }
+            .into());
         }
         let b = (self.hold - self.f) / self.e;
         Ok(Solution {
@@ -272,7 +275,7 @@ impl Solution {
 /// The drive f and the closed form of `bed`; a wanted Shields number is solved for. `see` receives residuals.
 ///
 /// # Errors
-/// Those of [`Scaled::solve`], in SI; [`SolveError::OutOfReach`] if no drive gives the wanted Shields number.
+/// Those of [`Scaled::solve`], in SI; [`BedError::OutOfReach`] if no drive gives the wanted Shields number.
 pub fn solve(bed: &LaminarBed, see: impl FnMut(f64)) -> Result<Solution, SolveError> {
     let weight = (bed.rho_p - bed.rho_f) * bed.g;
     let scaled = |f: f64| Scaled {
@@ -289,7 +292,7 @@ pub fn solve(bed: &LaminarBed, see: impl FnMut(f64)) -> Result<Solution, SolveEr
             let (low, high) = (1e-15 * scaled(0.0).largest_drive(), (1.0 - 1e-9) * scaled(0.0).largest_drive());
             let largest = shields(high).unwrap_or(0.0);
             if wanted > largest {
-                return Err(SolveError::OutOfReach { quantity: "shields", wanted, largest });
+                return Err(BedError::OutOfReach { quantity: "shields", wanted, largest }.into());
             }
             // The history is that of the drive: the searches inside it have other scales.
             let f = brent(|f| shields(f).map_or(f64::NAN, |theta| theta / wanted - 1.0), low, high, see)
@@ -297,12 +300,5 @@ pub fn solve(bed: &LaminarBed, see: impl FnMut(f64)) -> Result<Solution, SolveEr
             return scaled(f).solve(|_| {});
         }
     };
-    scaled(f).solve(see).map_err(|error| match error {
-        SolveError::WholeBedMoves { mobile_depth_m, bed_m, limit_pa_m } => SolveError::WholeBedMoves {
-            mobile_depth_m: mobile_depth_m * bed.h,
-            bed_m: bed_m * bed.h,
-            limit_pa_m: limit_pa_m * weight,
-        },
-        other => other,
-    })
+    scaled(f).solve(see).map_err(|error| in_si(error, bed))
 }
