@@ -1,8 +1,9 @@
 //! Laws: parameters and pure local functions. No grids, no time, no files.
 //!
-//! A closure is a struct of its parameters, the same in the case file, in the problem and in the solver. Each family is
-//! an `enum` tagged by `law = "..."`; each file holds the equation, its symbols with units, the source, the range of
-//! validity, the implementation, and tests of its limits. `docs/adding-a-law.md` walks through one.
+//! A closure is a struct of its parameters, the same in the case file, in the problem and in the solver. A role states its
+//! laws in its `mod.rs`, a line each ([`role`]); a case file names one by `law = "..."`. Each law's file holds the equation, its
+//! symbols with units, the source, the range of validity, the implementation, and tests of its limits.
+//! `docs/adding-a-law.md` walks through one.
 
 pub mod contact;
 pub mod dilatancy;

@@ -173,6 +173,8 @@ pub(crate) use {choice, laws, role};
 
 #[cfg(test)]
 mod tests {
+    use schemars::generate::SchemaSettings;
+
     use super::*;
     use crate::closures::friction::{self, Coulomb};
     use crate::closures::mixture_viscosity::MixtureViscosity;
@@ -194,7 +196,7 @@ mod tests {
         assert_eq!(toml::from_str::<Only<Coulomb>>(&text).unwrap(), Only(law));
         assert!(toml::from_str::<Only<Coulomb>>(&text.replace("coulomb", "mu-i")).is_err());
         let laws = |schema: Schema| schema.get("oneOf").unwrap().to_string();
-        let generator = &mut SchemaGenerator::default();
+        let generator = &mut SchemaSettings::default().with(|s| s.inline_subschemas = true).into_generator();
         assert_eq!(laws(Only::<Coulomb>::json_schema(generator)), laws(One::json_schema(generator)));
     }
 
