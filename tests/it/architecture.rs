@@ -354,9 +354,11 @@ fn files_stay_short() {
 #[test]
 fn the_map_in_the_crate_docs_has_every_module() {
     let library = fs::read_to_string(project("src/lib.rs")).unwrap();
+    // Links are plain code where a feature may leave the module out.
+    let map: String = library.lines().filter(|l| l.starts_with("//! | ")).collect::<String>().replace("`mod@", "`");
     let modules = library.lines().filter_map(|l| l.strip_prefix("pub mod ").or_else(|| l.strip_prefix("mod ")));
     for module in modules.map(|m| m.trim_end_matches(';')) {
         assert!(known(module), "{module} is not on the list here");
-        assert!(library.contains(&format!("[`{module}`]")), "{module} is not on the map");
+        assert!(map.contains(&format!("`{module}`")), "{module} is not on the map");
     }
 }
