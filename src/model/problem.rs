@@ -7,7 +7,8 @@ use super::{Description, Faults, ModelInfo, Solve, SteadyDrive};
 use crate::case::{Case, Fault};
 use crate::closures::{Info, Range};
 use crate::result::{
-    Class, Context, Failure, Figure, Head, NumericalError, Outcome, Profile, StatedLaw, Statement, Status, quantity as q,
+    Class, Context, Failure, Figure, Head, NumericalError, Outcome, Profile, StatedLaw, Statement, Status,
+    quantity as q,
 };
 
 /// Relative residual of a balance from which on a result has lost its digits: it is round-off otherwise.
