@@ -11,9 +11,9 @@ pub enum BedError {
         "the whole bed moves: the mobile layer would be {mobile_depth_m:.6} m deep where the bed is {bed_m:.6} m (z = 0 is reached)"
     )]
     WholeBedMoves {
-        /// depth to which the grains would move [m]
+        /// depth to which the grains would move \[m]
         mobile_depth_m: f64,
-        /// thickness of the bed [m]
+        /// thickness of the bed \[m]
         bed_m: f64,
         /// largest drive with a static layer [Pa/m]
         limit_pa_m: f64,

@@ -9,9 +9,9 @@ pub enum BedFault {
     /// A bed that fills the flow.
     #[error("the bed level {level} m is not below the flow height {height} m")]
     NoRoomForFlow {
-        /// bed level [m]
+        /// bed level \[m]
         level: f64,
-        /// flow height [m]
+        /// flow height \[m]
         height: f64,
     },
     /// Grains that float.
@@ -25,9 +25,9 @@ pub enum BedFault {
     /// A bed thinner than its grains.
     #[error("the bed is {level} m thick, less than one grain of {diameter} m")]
     ThinnerThanAGrain {
-        /// bed level [m]
+        /// bed level \[m]
         level: f64,
-        /// grain diameter [m]
+        /// grain diameter \[m]
         diameter: f64,
     },
     /// mu_2 below mu_s.

@@ -17,13 +17,13 @@ role! {
 
     /// What the laws of the mixing length answer.
     pub trait Length {
-        /// Mixing lengths [m] at the `faces` [m], ascending from the wall, for the solid fractions `phi` of the cells between
+        /// Mixing lengths \[m] at the `faces` \[m], ascending from the wall, for the solid fractions `phi` of the cells between
         /// them. `lengths` has one entry per face, `phi` one fewer.
         fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]);
         /// What a layer of the solid fraction `phi` adds to the integral behind the mixing length, per height; 0 for a local law.
         #[must_use]
         fn clearance<T: Real>(&self, phi: T) -> T;
-        /// Mixing length [m] for the integral of [`Self::clearance`] from the wall [m] and the solid fraction `phi` there.
+        /// Mixing length \[m] for the integral of [`Self::clearance`] from the wall \[m] and the solid fraction `phi` there.
         #[must_use]
         fn length<T: Real>(&self, integral: T, phi: T) -> T;
     }

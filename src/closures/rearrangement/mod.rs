@@ -28,7 +28,7 @@ role! {
 
     /// What the laws of the rearrangement time answer.
     pub trait Clock {
-        /// The inverse of the time that counts [1/s], under the pressure `p` [Pa] at the slip `w` [m/s].
+        /// The inverse of the time that counts [1/s], under the pressure `p` \[Pa] at the slip `w` [m/s].
         #[must_use]
         fn rate<T: Real>(&self, grain: &Grain, p: T, w: T) -> T;
         /// Which time counts there.

@@ -18,9 +18,9 @@ pub enum ExactFault {
     /// A wall rougher than the flow is high.
     #[error("the roughness length k_s/30 = {length} m is not below the flow height {height} m")]
     RoughnessAboveFlow {
-        /// roughness length [m]
+        /// roughness length \[m]
         length: f64,
-        /// flow height [m]
+        /// flow height \[m]
         height: f64,
     },
 }

@@ -54,7 +54,7 @@ pub enum SheetFlowError {
         "the whole bed moves: at a Shields number of {shields:.4} the grains yield down to the bottom of the bed, {bed_m:.6} m below its top"
     )]
     NothingAtRest {
-        /// thickness of the bed in the flow [m]
+        /// thickness of the bed in the flow \[m]
         bed_m: f64,
         /// Shields number
         shields: f64,
@@ -72,9 +72,9 @@ pub enum SheetFlowError {
         "the suspension takes the bed away: it would hold {suspended_m:.6} m of solid volume, the bed has {bed_m:.6} m"
     )]
     BedSuspended {
-        /// solid volume in suspension, per area [m]
+        /// solid volume in suspension, per area \[m]
         suspended_m: f64,
-        /// solid volume of the bed at rest, per area [m]
+        /// solid volume of the bed at rest, per area \[m]
         bed_m: f64,
     },
     /// A bed whose loosening feeds itself.
@@ -82,15 +82,15 @@ pub enum SheetFlowError {
         "no level of the bed holds its grains: from {rest_m:.6} m at rest it was raised to {reached_m:.6} m, where nothing stays at rest; a looser bed leaves a thinner, steeper flow, which loosens it more"
     )]
     BedRunsAway {
-        /// bed level at rest [m]
+        /// bed level at rest \[m]
         rest_m: f64,
-        /// level up to which it was raised [m]
+        /// level up to which it was raised \[m]
         reached_m: f64,
     },
     /// A lid that would have to drive the flow.
     #[error("the lid would have to push: its stress comes out as {stress_pa:.6} Pa against the flow, less than none")]
     LidPushes {
-        /// stress that the lid takes from the fluid [Pa]
+        /// stress that the lid takes from the fluid \[Pa]
         stress_pa: f64,
     },
     /// Equations that are not those of a boundary value problem right under the interface.
@@ -98,9 +98,9 @@ pub enum SheetFlowError {
         "the equations change type down to {depth_m:.3e} m of grains under the interface; the buoyancy of the viscous stress is left out in {cut_m:.3e} m alone"
     )]
     ChangeOfType {
-        /// solid volume per area under the interface down to which they do [m]
+        /// solid volume per area under the interface down to which they do \[m]
         depth_m: f64,
-        /// that in which the term is left out [m]
+        /// that in which the term is left out \[m]
         cut_m: f64,
     },
 }

@@ -47,9 +47,9 @@ pub enum TwoFluidError {
         "stuck at t = {time_s:.6} s: no step is short enough, the last one was {step_s:.3e} s with the residual {residual:.3e}"
     )]
     StuckInTime {
-        /// simulated time [s]
+        /// simulated time \[s]
         time_s: f64,
-        /// last step [s]
+        /// last step \[s]
         step_s: f64,
         /// residual of the step, or its error
         residual: f64,
