@@ -113,7 +113,7 @@ macro_rules! choice {
         pub enum $role {
             $(
                 #[schemars(extend("description" = $crate::closures::role::described::<$from::$law::$variant>()))]
-                #[doc = concat!("[`", stringify!($variant), "`](", stringify!($from::$law::$variant), ")")]
+                #[doc = concat!("[`", stringify!($from), "::", stringify!($law), "::", stringify!($variant), "`]")]
                 $(#[$attribute])*
                 $variant $(($crate::closures::role::choice!(@of $from $law $variant $dots)))?,
             )*

@@ -129,7 +129,7 @@ pub fn nothing(status: Status) -> Outcome {
 /// Everything that a bed has to say.
 ///
 /// # Errors
-/// [`SolveError::NotFinite`] if a number of the profile is none.
+/// [`NumericalError::NotFinite`](crate::result::NumericalError::NotFinite) if a number of the profile is none.
 pub fn outcome(
     bed: &GrainBed,
     engine: &Engine<LinearSpring>,

@@ -14,7 +14,7 @@ use crate::result::{Balance, Outcome, Results, Series, SolveError, Status, Valid
 /// Everything that a coupled run has to say.
 ///
 /// # Errors
-/// [`SolveError::NotFinite`] if a number is none.
+/// [`NumericalError::NotFinite`](crate::result::NumericalError::NotFinite) if a number is none.
 pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError> {
     let (flow, bed) = (run.flow, &run.flow.bed);
     let (first, over) = run.record.transient();
