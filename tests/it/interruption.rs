@@ -132,6 +132,7 @@ fn kill_leaves_every_file_whole_or_absent() {
                     assert!(text.lines().filter(|l| !l.starts_with('#')).count() > CELLS, "half a profile");
                 }
                 "series.csv" => assert!(text.ends_with('\n')),
+                "page.json" => drop(serde_json::from_str::<serde_json::Value>(&text).expect("half a file")),
                 "report.html" => assert!(text.trim_end().ends_with("</html>"), "half a report"),
                 other => panic!("{other} in the folder"),
             }
