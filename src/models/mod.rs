@@ -2,46 +2,44 @@
 
 mod bed_error;
 mod bed_fault;
-pub mod bingham;
-pub mod coupled;
-pub mod exact;
-pub mod grains;
-pub mod laminar;
 mod premises;
-pub mod section;
-pub mod shear_cell;
-pub mod sheet_flow;
 #[cfg(test)]
 mod tests;
-pub mod two_fluid;
 mod yielding;
-
-pub use bed_error::BedError;
-pub use bed_fault::BedFault;
-pub use yielding::RegularisationSize;
 
 use crate::dem::GrainBed;
 use crate::model::{Entry, OnMesh, Registry};
-pub use yielding::{RegularisationTable, YieldGrid};
 
-/// The models of this program, from least to most.
-#[must_use]
-pub fn builtin() -> Registry {
-    Registry::default()
-        .with(Entry::of::<OnMesh<exact::bed::LaminarBed>>())
-        .with(Entry::of::<OnMesh<exact::bingham::BinghamPlane>>())
-        .with(Entry::of::<OnMesh<exact::bagnold::GranularFilm>>())
-        .with(Entry::of::<OnMesh<exact::log_law::RoughWall>>())
-        .with(Entry::of::<OnMesh<laminar::RegularisedBed>>())
-        .with(Entry::of::<OnMesh<bingham::RegularisedPlane>>())
-        .with(Entry::of::<section::Duct>())
-        .with(Entry::of::<section::DuctBed>())
-        .with(Entry::of::<OnMesh<section::CavityFlow>>())
-        .with(Entry::of::<OnMesh<sheet_flow::SheetFlow>>())
-        .with(Entry::of::<OnMesh<two_fluid::TwoFluid>>())
-        .with(Entry::of::<OnMesh<shear_cell::ShearCell>>())
-        .with(Entry::of::<GrainBed>())
-        .with(Entry::of::<coupled::Coupled>())
-        .with(Entry::of::<grains::Impact>())
-        .with(Entry::of::<grains::Trial>())
+pub use bed_error::BedError;
+pub use bed_fault::BedFault;
+pub use yielding::{RegularisationSize, RegularisationTable, YieldGrid};
+
+/// The models of a program, from least to most: a line each, its folder and its types. `also` adds to a folder that is named
+/// already.
+macro_rules! models {
+    (@folder also) => {};
+    (@folder $folder:ident) => { pub mod $folder; };
+    ($($folder:ident: $($model:ty),+;)*) => {
+        $(models!(@folder $folder);)*
+
+        /// The models of this program, from least to most.
+        #[must_use]
+        pub fn builtin() -> Registry {
+            Registry::default() $($(.with(Entry::of::<$model>()))+)*
+        }
+    };
+}
+
+models! {
+    exact: OnMesh<exact::bed::LaminarBed>, OnMesh<exact::bingham::BinghamPlane>, OnMesh<exact::bagnold::GranularFilm>,
+        OnMesh<exact::log_law::RoughWall>;
+    laminar: OnMesh<laminar::RegularisedBed>;
+    bingham: OnMesh<bingham::RegularisedPlane>;
+    section: section::Duct, section::DuctBed, OnMesh<section::CavityFlow>;
+    sheet_flow: OnMesh<sheet_flow::SheetFlow>;
+    two_fluid: OnMesh<two_fluid::TwoFluid>;
+    shear_cell: OnMesh<shear_cell::ShearCell>;
+    grains: GrainBed;
+    coupled: coupled::Coupled;
+    also: grains::Impact, grains::Trial;
 }
