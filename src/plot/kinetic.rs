@@ -7,9 +7,9 @@ use crate::result::{Profile, Summary};
 use crate::units::readable_unit;
 
 /// The figure; none for a profile without the budget of the fluctuations.
-pub(super) fn kinetic_figure(profile: &Profile, summary: &Summary) -> Option<Figure> {
-    profile.get(&quantity::PRODUCTION)?;
-    Some(Scene { profile, z: profile.axis() }.fluctuations(&summary.case))
+pub(super) fn figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
+    let budget = profile.get(&quantity::PRODUCTION);
+    budget.map(|_| Scene { profile, z: profile.axis() }.fluctuations(&summary.case)).into_iter().collect()
 }
 
 struct Scene<'a> {

@@ -7,13 +7,11 @@ mod document;
 mod draw;
 mod grains;
 mod interface;
-mod kinetic;
 mod layout;
 mod live;
 mod map;
 mod motion;
 mod png;
-mod profile;
 mod report;
 mod section;
 mod several;
@@ -26,15 +24,34 @@ mod trials;
 use std::fmt::Display;
 use std::path::PathBuf;
 
+use crate::result::{Figure, Profile, Summary};
+
 pub use document::{Cell, Document, Section, document_html};
 pub use grains::grains_svg;
 pub use map::{Corner, Map, MapPanel, Place, Trail, map_png};
 pub use png::png;
-pub use profile::profile_figures;
 pub use report::{Page, report_html};
 pub use section::{section_map, section_svg};
 pub use several::{Trace, shared_figures};
 pub use svg::svg;
+
+/// The figures of columns that any model may have: a line each, the file with its function `figures`.
+macro_rules! figures {
+    ($($file:ident,)*) => {
+        $(mod $file;)*
+
+        /// The figures of a run that its columns and numbers give, whatever its model. What they do not give gets no figure.
+        #[must_use]
+        pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
+            [$($file::figures(profile, summary)),*].concat()
+        }
+    };
+}
+
+figures! {
+    profile,
+    kinetic,
+}
 
 /// Why a figure could not be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

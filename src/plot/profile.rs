@@ -11,8 +11,7 @@ use crate::result::{Axis, Curve, Dash, Figure, Level, Panel, Scale};
 /// Profiles over the elevation: velocities, shear stresses, solid fraction and flux, or what stands for them in a clear
 /// flow; and, where turbulence over a wall spans decades of z, the velocity over log z. A quantity that the profile
 /// does not have gets no panel, curves that coincide are drawn once.
-#[must_use]
-pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
+pub(super) fn figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
     let scene = Scene::new(profile, summary);
     let mut figures = Vec::new();
     let mut panels: Vec<Panel> = [
@@ -42,7 +41,6 @@ pub fn profile_figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
     if !turbulence.is_empty() {
         figures.push(scene.figure("turbulence", turbulence, scene.elevation()));
     }
-    figures.extend(super::kinetic::kinetic_figure(profile, summary));
     if scene.is_logarithmic()
         && let Some(velocities) = scene.velocities()
     {
@@ -278,7 +276,7 @@ fn distinct(lines: Vec<Line>) -> Vec<Line> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::trials;
+    use super::super::{profile_figures, trials};
     use super::*;
 
     fn names(panel: &Panel) -> Vec<&str> {

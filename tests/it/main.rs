@@ -11,6 +11,7 @@ mod chart;
 mod cli;
 mod compare;
 mod converge;
+mod cost;
 mod coupled;
 mod docs;
 mod features;
