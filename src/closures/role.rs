@@ -151,6 +151,7 @@ macro_rules! role {
 
         impl $answers for $role {
             $(
+                #[inline]
                 fn $ask $(<$real: $bound>)? (&self $(, $argument: $of)*) $(-> $result)? {
                     $crate::closures::role::role!(@each self $laws $ask ($($argument),*))
                 }

@@ -106,6 +106,7 @@ pub struct Parts<T> {
 
 /// The parts of `F2`.
 #[must_use]
+#[inline]
 pub fn viscosity<T: Real>(phi: T, g0: T, e: f64) -> Parts<T> {
     let x = phi * g0;
     let below = 1.0 - 0.25 * (1.0 - e) * (1.0 - e) - 5.0 / 24.0 * (1.0 - e * e);
@@ -116,6 +117,7 @@ pub fn viscosity<T: Real>(phi: T, g0: T, e: f64) -> Parts<T> {
 
 /// The parts of `F3`.
 #[must_use]
+#[inline]
 pub fn conductivity<T: Real>(phi: T, g0: T, e: f64) -> Parts<T> {
     let x = phi * g0;
     let below = (1.0 + e) * (1.0 - 7.0 / 16.0 * (1.0 - e));

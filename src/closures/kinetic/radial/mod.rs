@@ -56,6 +56,7 @@ fn hard_spheres<T: Real>(phi: T) -> T {
 }
 
 /// The same with a term that diverges at phi_max.
+#[inline]
 fn diverging<T: Real>(phi: T, gap: T, a: f64) -> T {
     hard_spheres(phi) + phi * phi * a / (gap * gap.sqrt())
 }
