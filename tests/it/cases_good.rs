@@ -3,6 +3,7 @@
 use std::fs;
 
 use bedload::case::{Case, shipped};
+use serde_json::Value;
 
 use crate::support::{REGISTRY, Scratch, files, load, parse, project};
 
@@ -157,4 +158,68 @@ fn shipped_cases_are_valid_and_resolve_to_themselves() {
         assert_eq!(again.resolved(), once, "{name}");
         assert_eq!(format!("{:?}", same.solver()), format!("{:?}", problem.solver()), "{name}");
     }
+}
+
+/// A value that `schema` allows, as it is written in TOML: numbers in the middle of their range, every key given.
+fn allowed(schema: &Value) -> String {
+    if let Some(choices) = schema["oneOf"].as_array() {
+        let first = &choices[0];
+        return first["const"].as_str().map_or_else(|| allowed(first), |word| format!("\"{word}\""));
+    }
+    let bound = |inclusive: &str, exclusive: &str| schema[inclusive].as_f64().or(schema[exclusive].as_f64());
+    let (low, high) = (bound("minimum", "exclusiveMinimum"), bound("maximum", "exclusiveMaximum"));
+    let middle = 0.5 * (low.unwrap_or(0.0) + high.unwrap_or(2.0));
+    match (&schema["properties"], schema["type"].as_str()) {
+        (Value::Object(keys), _) => {
+            let written = |(key, of): (&String, &Value)| {
+                format!("{key} = {}", of["const"].as_str().map_or_else(|| allowed(of), |word| format!("\"{word}\"")))
+            };
+            format!("{{ {} }}", keys.iter().map(written).collect::<Vec<_>>().join(", "))
+        }
+        (_, Some("boolean")) => "true".into(),
+        (_, Some("integer")) => format!("{middle:.0}"),
+        _ => format!("{middle:?}"),
+    }
+}
+
+/// Each law that a model takes, as a setting: `closures.drag={ law = "...", ... }`, the laws within laws included.
+fn laws(closures: &Value, path: &str, found: &mut Vec<String>) {
+    for (role, schema) in closures["properties"].as_object().into_iter().flatten() {
+        let path = format!("{path}.{role}");
+        for law in schema["oneOf"].as_array().into_iter().flatten() {
+            let word = law["properties"]["law"]["const"].as_str();
+            let setting =
+                word.map(|_| allowed(law)).or_else(|| law["const"].as_str().map(|word| format!("\"{word}\"")));
+            found.extend(setting.map(|setting| format!("{path}={setting}")));
+            laws(law, &path, found);
+        }
+    }
+}
+
+#[test]
+fn every_law_of_every_model_resolves_to_itself() {
+    let kinds = REGISTRY.kinds();
+    let schema = bedload::case::schema::published(kinds);
+    let mut tried = 0;
+    for (entry, schema) in REGISTRY.entries().zip(schema["oneOf"].as_array().unwrap()) {
+        let of_model = |name: &&str| Case::load(kinds, name, &[]).unwrap().model == entry.info.name;
+        let name = shipped::names().find(of_model).unwrap_or_else(|| panic!("no case of {}", entry.info.name));
+        let mut settings = Vec::new();
+        laws(&schema["properties"]["closures"], "closures", &mut settings);
+        for setting in settings {
+            // A law within a law is one of the first that has it.
+            let Ok(case) = Case::load(kinds, name, &[setting.clone()]) else {
+                assert!(setting.split('=').next().unwrap().matches('.').count() > 1, "{name}: {setting}");
+                continue;
+            };
+            let once = case.resolved();
+            let again = Case::parse(kinds, name, "case.toml", once.clone(), &[]);
+            let again = again.unwrap_or_else(|error| panic!("{name}, {setting}: {}", error.render(false)));
+            assert_eq!(again.resolved(), once, "{name}: {setting}");
+            let law = setting.split('"').nth(1).unwrap();
+            assert!(once.contains(&format!("\"{law}\"")), "{setting} is lost:\n{once}");
+            tried += 1;
+        }
+    }
+    assert!(tried > 60, "{tried} laws");
 }
