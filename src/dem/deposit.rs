@@ -151,8 +151,8 @@ fn settle(
         }
         // At the beginning the grains are at rest, too: then none touches.
         let found = engine.found();
-        let held = 2 * (found.contacts + found.wall_contacts) > mobile;
-        if held && engine.grains().kinetic_energy() < rest {
+        let supported = 2 * (found.contacts + found.wall_contacts) > mobile;
+        if supported && engine.grains().kinetic_energy() < rest {
             break;
         }
         let fraction = engine.steps() as f64 / most as f64;

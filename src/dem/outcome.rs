@@ -1,7 +1,7 @@
 //! What a bed of grains reports: profile, means with their errors, the account of energies.
 
-use super::average::{Averaged, Averages, Mean};
-use super::certainty::{Known, Unknown, of_series, resolved};
+use super::average::{Averaged, Averages};
+use super::certainty::{of_series, resolved};
 use super::checkpoint::Saved;
 use super::engine::Engine;
 use super::law::LinearSpring;
@@ -10,7 +10,8 @@ use crate::closures::contact::linear_spring::RIGID_RANGE;
 use crate::dem::GrainBed;
 use crate::result::CheckpointError;
 use crate::result::{
-    Balance, Outcome, Profile, Quantity, Results, Series, SolveError, Status, Validity, quantity as q,
+    Balance, Estimate, Outcome, Profile, Quantity, Results, Series, SolveError, Status, Unknown, Validity,
+    quantity as q,
 };
 
 /// Blocks of the scalar means.
@@ -70,19 +71,19 @@ impl Means {
             speed += grains.velocity(i)[0];
         }
         let (mut touches, mut push, mut drag, mut overlap) = (0.0, 0.0, 0.0, 0.0_f64);
-        for seen in engine.contacts() {
-            overlap = overlap.max(seen.ratio);
+        for contact in engine.contacts() {
+            overlap = overlap.max(contact.ratio);
             let mobile = |i: usize| !grains.is_fixed(i);
-            let second = seen.second.is_some_and(mobile);
-            touches += f64::from(u8::from(mobile(seen.first))) + f64::from(u8::from(second));
+            let second = contact.second.is_some_and(mobile);
+            touches += f64::from(u8::from(mobile(contact.first))) + f64::from(u8::from(second));
             // What fixed grains and walls do to the mobile ones.
-            let sign = match (mobile(seen.first), second) {
+            let sign = match (mobile(contact.first), second) {
                 (true, false) => -1.0,
                 (false, true) => 1.0,
                 _ => continue,
             };
-            push += sign * seen.force[2];
-            drag -= sign * seen.force[0];
+            push += sign * contact.force[2];
+            drag -= sign * contact.force[0];
         }
         let kinetic = grains.kinetic_energy();
         let area = bed.size[0] * bed.size[1];
@@ -102,7 +103,7 @@ impl Means {
     /// Mean velocity so far [m/s].
     #[must_use]
     pub fn velocity(&self) -> Option<f64> {
-        self.mean(3).map(|known| known.mean)
+        self.mean(3).map(|estimate| estimate.mean)
     }
 
     fn column(&self, column: usize) -> Vec<f64> {
@@ -110,7 +111,7 @@ impl Means {
     }
 
     /// Mean of a column and its standard error by blocks.
-    fn mean(&self, column: usize) -> Option<Known> {
+    fn mean(&self, column: usize) -> Option<Estimate> {
         of_series(&self.column(column), &[BLOCKS])
     }
 
@@ -138,13 +139,13 @@ pub fn outcome(
     status: Status,
 ) -> Result<Outcome, SolveError> {
     let mut averaged = averages.profile();
-    if means.resolved().is_err() {
-        averaged = averaged.without_errors();
+    if let Err(why) = means.resolved() {
+        averaged = averaged.without_errors(why);
     }
     let mut results = Results::default();
     results.set(&q::GRAINS, bed.mobile as f64);
     let mut mean = |quantity, column, scale: f64| match means.mean(column) {
-        Some(known) => set_mean(&mut results, quantity, known.times(scale)),
+        Some(estimate) => results.set_mean(quantity, estimate.times(scale)),
         None => results.undefined(quantity, "nothing was averaged yet"),
     };
     mean(&q::TRANSPORT_RATE, 2, 1.0);
@@ -211,14 +212,9 @@ pub fn outcome(
     Ok(Outcome { results, balances, validity, profile, series, ..nothing(status) })
 }
 
-/// Reports a mean with its standard error, or why it has none.
-pub(crate) fn set_mean(results: &mut Results, quantity: &'static Quantity, known: Known) {
-    results.set_mean(quantity, known.mean, known.error.map_err(Unknown::reason));
-}
-
 /// Where the solid fraction falls below half of that of the bed, from above, and that of the bed.
 pub(crate) fn bed_level(averaged: &Averaged) -> Option<(f64, f64)> {
-    let phi = |s: usize| averaged.phi[s].map_or(0.0, |(phi, _)| phi);
+    let phi = |s: usize| averaged.phi[s].map_or(0.0, |phi| phi.mean);
     let slices = averaged.z.len();
     let bulk_up_to = |top: usize| {
         let (from, to) = (top / 4, (3 * top / 4).max(top / 4 + 1));
@@ -232,7 +228,7 @@ pub(crate) fn bed_level(averaged: &Averaged) -> Option<(f64, f64)> {
 
 /// What the middle of the bed tells: pressure against the weight above it, friction and inertial number.
 fn bulk(bed: &GrainBed, averaged: &Averaged, level: f64, results: &mut Results) {
-    let of = |means: &[Mean], s: usize| means[s].map_or(0.0, |(x, _)| x);
+    let of = |means: &[Option<Estimate>], s: usize| means[s].map_or(0.0, |x| x.mean);
     let slices = averaged.z.len();
     let thickness = bed.discrete.slice * bed.d;
     let inside: Vec<usize> = (0..slices).filter(|&s| (0.25..0.75).contains(&(averaged.z[s] / level))).collect();
@@ -254,7 +250,7 @@ fn bulk(bed: &GrainBed, averaged: &Averaged, level: f64, results: &mut Results) 
         &q::PRESSURE_ERROR,
         inside.iter().map(off).fold(0.0, f64::max) / above[low.min(window)].max(f64::MIN_POSITIVE),
     );
-    let mean = |means: &[Mean]| inside.iter().map(|&s| of(means, s)).sum::<f64>() / inside.len() as f64;
+    let mean = |means: &[Option<Estimate>]| inside.iter().map(|&s| of(means, s)).sum::<f64>() / inside.len() as f64;
     let (pressure, shear) = (mean(&averaged.pressure), mean(&averaged.shear));
     if bed.beta == 0.0 || pressure <= 0.0 {
         results.undefined(&q::FRICTION_BULK, "the bed is level");
@@ -270,12 +266,12 @@ pub(crate) fn profile(bed: &GrainBed, averaged: &Averaged) -> Result<Option<Prof
         return Ok(None);
     }
     let mut profile = Profile::new(averaged.z.clone())?;
-    let value = |means: &[Mean]| means.iter().map(|m| m.map(|(x, _)| x)).collect::<Vec<_>>();
-    let error = |means: &[Mean]| means.iter().map(|m| m.and_then(|(_, e)| e)).collect::<Vec<_>>();
+    let value = |means: &[Option<Estimate>]| means.iter().map(|m| m.map(|x| x.mean)).collect::<Vec<_>>();
+    let error = |means: &[Option<Estimate>]| means.iter().map(|m| m.and_then(|x| x.stderr.ok())).collect::<Vec<_>>();
     let mut push = |quantity: &'static Quantity, values| profile.push(quantity, values);
     push(&q::PHI, value(&averaged.phi))?;
     push(&q::U_PARTICLE, value(&averaged.velocity))?;
-    let flux = |(phi, u): (&Mean, &Mean)| phi.map(|(phi, _)| phi * u.map_or(0.0, |(u, _)| u));
+    let flux = |(phi, u): (&Option<Estimate>, &Option<Estimate>)| phi.map(|phi| phi.mean * u.map_or(0.0, |u| u.mean));
     push(&q::FLUX, averaged.phi.iter().zip(&averaged.velocity).map(flux).collect())?;
     push(&q::TAU_PARTICLE, value(&averaged.shear))?;
     push(&q::P_PARTICLE, value(&averaged.pressure))?;
@@ -296,12 +292,12 @@ fn rates(bed: &GrainBed, averaged: &Averaged) -> (Vec<Option<f64>>, Vec<Option<f
     let half = ((0.5 / bed.discrete.slice).round() as usize).max(1);
     let rate = |s: usize| {
         let (below, above) = (s.checked_sub(half)?, s + half);
-        let u = |s: usize| averaged.velocity.get(s).copied().flatten().map(|(u, _)| u);
+        let u = |s: usize| averaged.velocity.get(s).copied().flatten().map(|u| u.mean);
         let rate = (u(above)? - u(below)?) / (averaged.z[above] - averaged.z[below]);
         Some(rate.abs())
     };
     let number = |s: usize| {
-        let (pressure, _) = averaged.pressure[s]?;
+        let pressure = averaged.pressure[s]?.mean;
         (pressure > 0.0).then(|| rate(s).map(|rate| bed.d * rate * (bed.rho_p / pressure).sqrt()))?
     };
     ((0..averaged.z.len()).map(rate).collect(), (0..averaged.z.len()).map(number).collect())

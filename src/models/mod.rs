@@ -43,5 +43,5 @@ pub fn builtin() -> Registry {
         .with(Entry::of::<GrainBed>())
         .with(Entry::of::<coupled::Coupled>())
         .with(Entry::of::<grains::Impact>())
-        .with(Entry::of::<grains::Trial>())
+        .with(Entry::of::<grains::Verification>())
 }

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::{fs, io};
 
 use super::error::OutputError;
-use super::grains::{CHECKPOINT, MOTION, is_frame, is_partial};
+use super::grains::{ANIMATION, CHECKPOINT, is_frame, is_partial};
 use super::lock::is_lock;
 
 /// What the report shows that stands in no table.
@@ -44,7 +44,7 @@ impl Kind {
                 "report.html",
                 CHECKPOINT,
                 "grains.csv",
-                MOTION,
+                ANIMATION,
                 "section.csv",
                 "section.vts",
                 WORDS,

@@ -9,15 +9,15 @@ use crate::units::readable_unit;
 /// The figure; none for a profile without the budget of the fluctuations.
 pub(super) fn kinetic_figure(profile: &Profile, summary: &Summary) -> Option<Figure> {
     profile.get(&quantity::PRODUCTION)?;
-    Some(Scene { profile, z: profile.axis() }.fluctuations(&summary.case))
+    Some(Drawing { profile, z: profile.axis() }.fluctuations(&summary.case))
 }
 
-struct Scene<'a> {
+struct Drawing<'a> {
     profile: &'a Profile,
     z: Vec<f64>,
 }
 
-impl Scene<'_> {
+impl Drawing<'_> {
     fn at(&self, quantity: &Quantity, row: usize) -> Option<f64> {
         self.profile.get(quantity)?.get(row).copied().flatten()
     }

@@ -1,6 +1,7 @@
 //! Figures and the page of a run, from stored results alone: [`profile_figures`] makes figures of a profile, [`svg()`]
 //! and [`png()`] draw them, [`report_html`] sets the page. [`shared_figures`] and [`document_html`] do so for several.
 
+mod animation;
 mod axis;
 mod canvas;
 mod document;
@@ -11,17 +12,16 @@ mod kinetic;
 mod layout;
 mod live;
 mod map;
-mod motion;
 mod png;
 mod profile;
 mod report;
+#[cfg(test)]
+mod samples;
 mod section;
 mod several;
 mod shell;
 mod svg;
 mod theme;
-#[cfg(test)]
-mod trials;
 
 use std::fmt::Display;
 use std::path::PathBuf;

@@ -158,7 +158,7 @@ fn grains_that_give_nothing_back_fall_and_flow() {
 }
 
 #[test]
-fn a_deep_bed_at_rest_is_held_and_the_accounts_close() {
+fn a_deep_bed_at_rest_is_frozen_and_the_balances_close() {
     let scratch = Scratch::new();
     let run = |more: &[&str]| {
         let sets = [
@@ -177,10 +177,10 @@ fn a_deep_bed_at_rest_is_held_and_the_accounts_close() {
     assert_eq!(number(&never, "held_below_m"), Some(0.0));
     // To look at the layers changes nothing.
     assert_eq!(number(&free, "transport_rate_m2_s"), number(&never, "transport_rate_m2_s"));
-    let held = run(&["discrete.hold_creep=0.5"]);
-    assert!(number(&held, "held_below_m").unwrap() >= 6e-3, "{held}");
-    assert!(number(&held, "transport_rate_m2_s").unwrap() > 0.0);
-    for balance in held["balances"].as_array().unwrap() {
+    let frozen = run(&["discrete.hold_creep=0.5"]);
+    assert!(number(&frozen, "held_below_m").unwrap() >= 6e-3, "{frozen}");
+    assert!(number(&frozen, "transport_rate_m2_s").unwrap() > 0.0);
+    for balance in frozen["balances"].as_array().unwrap() {
         assert!(balance["relative"].as_f64().unwrap().abs() < 1e-12, "{balance}");
     }
 }

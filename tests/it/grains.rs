@@ -217,7 +217,7 @@ fn a_run_that_fails_keeps_its_last_checkpoint() {
 }
 
 #[test]
-fn pictures_for_paraview_are_whole_xml_with_a_point_a_grain() {
+fn frames_for_paraview_are_whole_xml_with_a_point_a_grain() {
     let scratch = Scratch::new();
     scratch.bedload(case(&["--out", "out"])).exits(0);
     let text = scratch.read("out/grains_00004.vtp");
@@ -242,5 +242,5 @@ fn pictures_for_paraview_are_whole_xml_with_a_point_a_grain() {
         assert_eq!(numbers.len(), components * points, "{name}");
     }
     let page = scratch.read("out/report.html");
-    assert!(page.contains("<figure id=\"picture\">") && page.contains("<circle"), "the report shows the grains");
+    assert!(page.contains("<figure id=\"drawing\">") && page.contains("<circle"), "the report shows the grains");
 }

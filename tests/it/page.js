@@ -32,7 +32,7 @@ function legends(svg) {
   return { counts, pressed };
 }
 
-async function film(figure) {
+async function animation(figure) {
   const [canvas, button, slider, clock] = ["canvas", "button", "input", "output"].map(name => figure.querySelector(name));
   const colours = () => {
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -49,7 +49,7 @@ async function film(figure) {
   const still = clock.textContent === stopped;
   slider.value = slider.max;
   slider.dispatchEvent(new Event("input"));
-  return { begin, later, said, still, end: clock.textContent, colours: colours(), hidden: figure.hidden, picture: document.getElementById("picture")?.hidden };
+  return { begin, later, said, still, end: clock.textContent, colours: colours(), hidden: figure.hidden, drawing: document.getElementById("drawing")?.hidden };
 }
 
 const answer = {};
@@ -66,8 +66,8 @@ try {
     svg.dispatchEvent(new PointerEvent("pointerleave"));
     return { ...found, left: shown().length, legend: legends(svg) };
   });
-  const figure = document.getElementById("motion");
-  if (figure) answer.film = await film(figure);
+  const figure = document.getElementById("animation");
+  if (figure) answer.animation = await animation(figure);
 } catch (error) {
   answer.error = String(error);
 }

@@ -1,4 +1,4 @@
-//! Pages in a browser, headless: they answer to a pointer, play their film, load nothing and complain of nothing, in light
+//! Pages in a browser, headless: they answer to a pointer, play their animation, load nothing and complain of nothing, in light
 //! and in dark. Without a Chromium on the path the tests say so and pass.
 
 use std::env;
@@ -138,21 +138,21 @@ fn profiles_answer_with_the_values_of_the_table_at_one_elevation_in_all_panels()
 }
 
 #[test]
-fn grains_move_while_the_film_plays_and_stop_when_it_is_paused() {
+fn grains_move_while_the_animation_plays_and_stop_when_it_is_paused() {
     let Some(browser) = chromium() else { return };
     let scratch = Scratch::new();
     scratch.bedload(["run", "grains_3d_bed_quick", "--out", "out", "--quiet"]).exits(0);
-    let motion: Value = serde_json::from_str(&scratch.read("out/motion.json")).unwrap();
-    let get = |name: &str| motion[name].as_f64().unwrap();
+    let recorded: Value = serde_json::from_str(&scratch.read("out/motion.json")).unwrap();
+    let get = |name: &str| recorded[name].as_f64().unwrap();
     let end = get("begin_s") + get("interval_s") * (get("pictures") - 1.0);
     for answer in examine(&browser, &scratch, "out/report.html") {
-        let film = &answer["film"];
-        let time = |name: &str| number(film[name].as_str().unwrap(), "t = ");
-        assert!((time("begin") - time("later")).abs() > 0.0, "it does not play: {film}");
-        assert!((time("end") - end).abs() < 1e-3, "{film}: {end} s");
-        assert_eq!((&film["said"], &film["still"]), (&Value::from("Play"), &Value::from(true)));
-        assert!(film["colours"].as_u64().unwrap() > 50, "the canvas is empty: {film}");
-        assert_eq!((&film["hidden"], &film["picture"]), (&Value::from(false), &Value::from(true)));
+        let animation = &answer["animation"];
+        let time = |name: &str| number(animation[name].as_str().unwrap(), "t = ");
+        assert!((time("begin") - time("later")).abs() > 0.0, "it does not play: {animation}");
+        assert!((time("end") - end).abs() < 1e-3, "{animation}: {end} s");
+        assert_eq!((&animation["said"], &animation["still"]), (&Value::from("Play"), &Value::from(true)));
+        assert!(animation["colours"].as_u64().unwrap() > 50, "the canvas is empty: {animation}");
+        assert_eq!((&animation["hidden"], &animation["drawing"]), (&Value::from(false), &Value::from(true)));
     }
     assert!(scratch.read("out/report.html").len() < 3_000_000);
 }

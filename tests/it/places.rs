@@ -149,7 +149,7 @@ fn what_a_person_puts_into_a_folder_on_its_way_stays() {
 }
 
 #[test]
-fn pictures_do_not_follow_a_link() {
+fn frames_do_not_follow_a_link() {
     let scratch = scratch();
     scratch.bedload(["run", "exact_1d_ouriemi", "--out", "out", "--quiet"]).exits(0);
     symlink("../precious/figures", scratch.path("out/figures")).unwrap();

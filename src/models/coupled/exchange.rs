@@ -12,7 +12,7 @@
 //! implicitly in u. At u = uⁿ that is β (u - v) of eq. (17)-(18) to round-off; β itself, a quotient of sums that pass zero
 //! with the slip, and that eddies and neighbouring cells make negative, is never formed, and nothing is clipped.
 //!
-//! The grains feel uⁿ for the whole period. So the impulse that the fluid lost, T_i = τ h n f, is not what they got,
+//! The fluid velocity at the grains is uⁿ for the whole period. So the impulse that the fluid lost, T_i = τ h n f, is not what they got,
 //! G_i = Σ share ∫ f_x dt/A. The difference goes into an account c_i, of which a quarter is paid back in each period:
 //!
 //! ```text
@@ -22,7 +22,7 @@
 //! With a strong drag, a = τ β/(ε ρ_f) >> 1, the error of u then halves in each period; paying back all of it at once would make
 //! it oscillate undamped. T - G - (change of c) is round-off for every cell. The share of fixed grains goes to the ground.
 
-use super::felt::Felt;
+use super::fluid_at_grains::FluidAtGrains;
 use crate::closures::drag::DallavalleGrain;
 use crate::column::{Balance, Bottom, ColumnError, FluidColumn, Forcing, Grid, Medium, Setup, Top, ViscousForm};
 use crate::dem::checkpoint::{Reader, Writer};
@@ -40,8 +40,8 @@ const RETURNED: f64 = 0.25;
 pub struct Exchange {
     /// the fluid
     pub column: FluidColumn,
-    /// the fluid as the grains feel it
-    pub felt: Felt,
+    /// fluid velocity and hindrance at the grains
+    pub at_grains: FluidAtGrains,
     law: DallavalleGrain,
     d: f64,
     medium: Medium,
@@ -94,7 +94,7 @@ impl Exchange {
         let zero = || vec![0.0; cells];
         Ok(Self {
             column: FluidColumn::new(grid, setup)?,
-            felt: Felt::new(flow.drag, flow.drag.viscous(flow.nu(), bed.d), cells, height, grains),
+            at_grains: FluidAtGrains::new(flow.drag, flow.drag.viscous(flow.nu(), bed.d), cells, height, grains),
             law: flow.drag,
             d: bed.d,
             medium: Medium::clear(cells),
@@ -155,7 +155,7 @@ impl Exchange {
     /// Averages the grains over the cells: solid fraction and velocity, drag and its slope at the present velocities, and the
     /// impulse that the fluid gave since the last look, `dt` \[s] being the step of the grains.
     pub fn look<C: ContactLaw>(&mut self, engine: &Engine<C>, dt: f64) {
-        let Self { medium, drag, slope, given, felt, volumes, .. } = self;
+        let Self { medium, drag, slope, given, at_grains, volumes, .. } = self;
         let cells = medium.phi.len();
         let grains = engine.grains();
         for sums in drag.iter_mut().chain(slope.iter_mut()).chain([given, &mut medium.phi, &mut medium.velocity]) {
@@ -169,14 +169,14 @@ impl Exchange {
             let (id, fixed) = (grains.ids[i], grains.is_fixed(i));
             let whole = 4.0 / 3.0 * std::f64::consts::PI * r * r * r;
             let (first, inside) = shares(z, r, self.height, cells, volumes);
-            let dragged = felt.drag(id, z, velocity);
+            let dragged = at_grains.drag(id, z, velocity);
             if !fixed {
                 self.rate += whole * velocity[0];
                 self.steepest = self.steepest.max(dragged.slope * grains.spins[i].0[3]);
             }
             // Of a mobile grain the part inside counts for all; of one in the bottom, only the part in the flow.
             let scale = if fixed { per_volume / whole } else { per_volume / inside };
-            let sum = felt.take(id) * dt;
+            let sum = at_grains.take(id) * dt;
             if fixed {
                 for (s, part) in volumes.iter().enumerate() {
                     medium.phi[first + s] += part * per_volume;
@@ -237,7 +237,7 @@ impl Exchange {
             *account += taken - back;
         }
         self.totals[0].add(net);
-        self.feel();
+        self.update_grains();
         Ok(())
     }
 
@@ -260,12 +260,12 @@ impl Exchange {
             self.look(engine, 0.0);
             self.account.fill(0.0);
             self.totals = [Sum::default(); 2];
-            self.feel();
+            self.update_grains();
             self.look(engine, 0.0);
             let before = self.column.velocity().to_vec();
             self.expand(&before, 0.0);
             self.column.step(&self.medium, &self.forcing, f64::INFINITY)?;
-            self.feel();
+            self.update_grains();
             let largest = self.column.velocity().iter().fold(0.0, |m: f64, u| m.max(u.abs()));
             let change = self.column.velocity().iter().zip(&before).fold(0.0, |m: f64, (u, v)| m.max((u - v).abs()));
             if change <= 1e-6 * largest {
@@ -275,12 +275,12 @@ impl Exchange {
         Ok(())
     }
 
-    /// Hands velocity and hindrance to the grains.
-    pub(super) fn feel(&mut self) {
+    /// Updates velocity and hindrance at the grains.
+    pub(super) fn update_grains(&mut self) {
         let cells = self.medium.phi.len();
-        self.felt.velocity[..cells].copy_from_slice(self.column.velocity());
+        self.at_grains.velocity[..cells].copy_from_slice(self.column.velocity());
         let (law, rho, d) = (self.law, self.column.setup().rho, self.d);
-        for (size, phi) in self.felt.size.iter_mut().zip(&self.medium.phi) {
+        for (size, phi) in self.at_grains.size.iter_mut().zip(&self.medium.phi) {
             *size = law.size(*phi, rho, d);
         }
         let faces = self.column.tau_reynolds().windows(2);
@@ -299,7 +299,7 @@ impl Exchange {
         }
         to.number(self.worst);
         to.number(self.rate);
-        self.felt.carried().for_each(|x| to.number(x));
+        self.at_grains.carried().for_each(|x| to.number(x));
     }
 
     /// Reads what [`Self::save`] wrote, for `grains` grains.
@@ -326,10 +326,10 @@ impl Exchange {
         }
         this.worst = from.number()?;
         this.rate = from.number()?;
-        for word in this.felt.carried_mut() {
+        for word in this.at_grains.carried_mut() {
             *word = from.number()?.to_bits();
         }
-        this.feel();
+        this.update_grains();
         // The column knows its stresses only after a step.
         this.reynolds = reynolds;
         Ok(this)

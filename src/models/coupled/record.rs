@@ -1,9 +1,9 @@
 //! What is remembered of a run: samples, blocks of the fluid, and where the transient ends.
 
 use super::exchange::Exchange;
-use crate::dem::certainty::{Known, LEAST_BLOCKS, Unknown, of_blocks, of_series, resolved};
+use crate::dem::certainty::{MIN_BLOCKS, of_blocks, of_series, resolved};
 use crate::dem::checkpoint::{Reader, Saved, Writer};
-use crate::result::CheckpointError;
+use crate::result::{CheckpointError, Estimate, Unknown};
 
 /// Blocks of the whole duration.
 pub const BLOCKS: usize = 40;
@@ -68,7 +68,7 @@ impl Record {
 
     /// Mean of `column` from block `first` on, and its standard error by blocks of time.
     #[must_use]
-    pub fn mean(&self, column: usize, first: usize) -> Option<Known> {
+    pub fn mean(&self, column: usize, first: usize) -> Option<Estimate> {
         of_series(&self.column(column, first), COUNTS)
     }
 
@@ -89,21 +89,21 @@ impl Record {
     pub fn precision(&self) -> Option<f64> {
         let (first, over) = self.transient();
         let blocks = self.rows.last()?[1] as usize + 1;
-        let enough = over && blocks >= first + LEAST_BLOCKS && self.rows.len() >= 80;
-        let known = self.mean(3, first).filter(|_| enough)?;
-        known.error.ok().filter(|_| known.mean > 0.0).map(|error| error / known.mean)
+        let enough = over && blocks >= first + MIN_BLOCKS && self.rows.len() >= 80;
+        let rate = self.mean(3, first).filter(|_| enough)?;
+        rate.stderr.ok().filter(|_| rate.mean > 0.0).map(|error| error / rate.mean)
     }
 
     /// Fluid per cell from block `first` on: means, and standard errors of them.
     #[must_use]
-    pub fn fluid(&self, first: usize) -> Vec<[Known; FLUID]> {
+    pub fn fluid(&self, first: usize) -> Vec<[Estimate; FLUID]> {
         let blocks: Vec<&Block> = self.blocks[first..].iter().filter(|block| block.samples > 0.0).collect();
         let cells = self.blocks[0].sums.len();
         let enough = self.resolved(first);
         let one = |cell: usize, k: usize| {
             let values: Vec<f64> = blocks.iter().map(|block| block.sums[cell][k] / block.samples).collect();
             let mean = values.iter().sum::<f64>() / values.len() as f64;
-            Known { mean, error: enough.and_then(|()| of_blocks(&values, mean)) }
+            Estimate { mean, stderr: enough.and_then(|()| of_blocks(&values, mean)) }
         };
         if blocks.is_empty() {
             return Vec::new();

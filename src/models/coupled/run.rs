@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::error::CoupledError::Fluid;
 use super::exchange::Exchange;
-use super::hold::Hold;
+use super::freeze::FrozenBed;
 use super::limits;
 use super::outcome;
 use super::record::{BLOCKS, Record};
@@ -12,7 +12,7 @@ use super::scene::{gravity, level, relief};
 use crate::closures::fluctuation::Fluctuation;
 use crate::dem::average::Averages;
 use crate::dem::checkpoint::{Reader, Saved, Writer};
-use crate::dem::drive::{self, Flow, Progress, Scene};
+use crate::dem::drive::{self, Flow, GrainFlow, Progress};
 use crate::dem::engine::Engine;
 use crate::dem::grains::Grain;
 use crate::dem::keep::{contact_equations, law};
@@ -35,8 +35,8 @@ pub(super) struct Run<'a> {
     pub exchange: Exchange,
     pub averages: Averages,
     pub record: Record,
-    /// what is held of the deep bed
-    pub hold: Option<Hold>,
+    /// the frozen part of the deep bed
+    pub frozen: Option<FrozenBed>,
     /// steps of the grains in a period; periods in a sample and in the whole run, and those made
     pub steps: u64,
     pub sampled: u64,
@@ -49,7 +49,7 @@ pub(super) struct Run<'a> {
     rates: f64,
 }
 
-impl Scene for Coupled {
+impl GrainFlow for Coupled {
     fn bed(&self) -> &GrainBed {
         &self.bed
     }
@@ -68,7 +68,7 @@ pub fn run(flow: &Coupled, context: &mut Context<'_>) -> Result<Outcome, Failure
 }
 
 impl<'a> Flow<'a> for Run<'a> {
-    type Scene = Coupled;
+    type Problem = Coupled;
     const BETWEEN: u64 = 1;
 
     /// Starts the fluid over a bed that has come to rest.
@@ -93,7 +93,7 @@ impl<'a> Flow<'a> for Run<'a> {
         engine.change(flow.coupling_period / steps, gravity(flow));
         limits::grains(flow, &engine, &exchange)?;
         engine.begin_ledger();
-        let hold = Hold::new(flow, &engine);
+        let frozen = FrozenBed::new(flow, &engine);
         let cells = exchange.phi().len();
         let area = bed.size[0] * bed.size[1];
         let shape = [0.0, exchange.cell_height(), area * exchange.cell_height(), bed.rho_p];
@@ -108,7 +108,7 @@ impl<'a> Flow<'a> for Run<'a> {
             sampled,
             periods: (bed.discrete.duration / flow.coupling_period).round().max(1.0) as u64,
             made: 0,
-            hold,
+            frozen,
             turn: 0,
             draws: 0,
             rates: 0.0,
@@ -131,8 +131,8 @@ impl<'a> Flow<'a> for Run<'a> {
         let mut averages = Averages::empty(cells, BLOCKS, [0.0; 4]);
         averages.fill(from)?;
         let record = Record::read(from, cells)?;
-        let hold = Hold::restore(flow, &engine, from)?;
-        Ok(Self { flow, engine, exchange, averages, record, hold, steps, sampled, periods, made, turn, draws, rates })
+        let frozen = FrozenBed::restore(flow, &engine, from)?;
+        Ok(Self { flow, engine, exchange, averages, record, frozen, steps, sampled, periods, made, turn, draws, rates })
     }
 
     fn save(&self, to: &mut Writer) {
@@ -143,10 +143,10 @@ impl<'a> Flow<'a> for Run<'a> {
         self.exchange.save(to);
         self.averages.save(to);
         self.record.write(to);
-        self.hold.iter().for_each(|hold| hold.save(to));
+        self.frozen.iter().for_each(|frozen| frozen.save(to));
     }
 
-    fn scene(&self) -> &'a Coupled {
+    fn problem(&self) -> &'a Coupled {
         self.flow
     }
 
@@ -165,8 +165,8 @@ impl<'a> Flow<'a> for Run<'a> {
     /// One coupling period.
     fn advance(&mut self) -> Result<(), SolveError> {
         self.exchange.look(&self.engine, self.engine.settings().dt);
-        // What grains were given in the last period is booked before they are held.
-        if self.hold.as_mut().is_some_and(|hold| hold.look(self.made, &mut self.engine)) {
+        // What grains were given in the last period is booked before they are frozen.
+        if self.frozen.as_mut().is_some_and(|frozen| frozen.check(self.made, &mut self.engine)) {
             self.exchange.look(&self.engine, self.engine.settings().dt);
         }
         self.rates += self.exchange.rate();
@@ -176,7 +176,7 @@ impl<'a> Flow<'a> for Run<'a> {
                 self.stir();
             }
             self.turn -= 1;
-            self.engine.step(&self.exchange.felt)?;
+            self.engine.step(&self.exchange.at_grains)?;
         }
         self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps).map_err(Fluid)?;
         limits::fluid(self.flow, &self.exchange)?;
@@ -259,9 +259,9 @@ impl Run<'_> {
         let grains = self.engine.grains();
         for i in 0..grains.len() {
             let id = grains.ids[i];
-            let sigma = deviations[self.exchange.felt.cell(grains.position(i)[2])];
+            let sigma = deviations[self.exchange.at_grains.cell(grains.position(i)[2])];
             let mut stream = Stream::new([seed ^ (EDDIES << 32), self.draws, u64::from(id)]);
-            self.exchange.felt.set_fluctuation(id, walk.draw(&mut stream, sigma));
+            self.exchange.at_grains.set_fluctuation(id, walk.draw(&mut stream, sigma));
         }
         self.draws += 1;
     }
@@ -275,8 +275,8 @@ impl Run<'_> {
         let kinetic = self.engine.grains().kinetic_energy();
         let row = [self.time(), block as f64, kinetic, rate, largest, level, speed];
         self.record.sample(row, &self.exchange);
-        let (grains, felt) = (self.engine.grains(), &self.exchange.felt);
-        let drag = |i: usize| felt.drag(grains.ids[i], grains.position(i)[2], grains.velocity(i)).force;
+        let (grains, at_grains) = (self.engine.grains(), &self.exchange.at_grains);
+        let drag = |i: usize| at_grains.drag(grains.ids[i], grains.position(i)[2], grains.velocity(i)).force;
         self.averages.sample(&self.engine, block, drag);
     }
 }

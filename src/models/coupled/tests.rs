@@ -1,7 +1,7 @@
 //! Grains and fluid against each other: terminal velocity, momentum, steady states, restarts.
 
 use super::exchange::Exchange;
-use super::felt::Felt;
+use super::fluid_at_grains::FluidAtGrains;
 use super::record::Record;
 use super::run;
 use super::run::Run;
@@ -76,7 +76,7 @@ fn flow() -> Coupled {
         fluctuation: Fluctuation::RandomWalk(RandomWalk { spanwise: false, per_porosity: true }),
         coupling_period: 1e-2,
         fluid_steps: 1,
-        hold: None,
+        freeze: None,
         fluid_scheme: crate::models::coupled::FluidScheme::Implicit,
         sample_period: 2e-2,
         known_to: None,
@@ -99,11 +99,11 @@ fn sparse(density: f64, dt: f64, layers: usize) -> Engine<crate::dem::LinearSpri
 fn the_slope_of_the_drag_is_its_derivative() {
     let law = DallavalleGrain { constant: 0.4, exponent: 3.1 };
     let at = |u: f64| {
-        let mut felt = Felt::new(law, law.viscous(1e-6, D), 4, D, 1);
-        felt.velocity.fill(u);
-        felt.size.fill(law.size(0.3, 1000.0, D));
-        felt.set_fluctuation(0, [0.02, 0.0, -0.01]);
-        felt.drag(0, 0.5 * D, [0.3, 0.05, 0.02])
+        let mut at_grains = FluidAtGrains::new(law, law.viscous(1e-6, D), 4, D, 1);
+        at_grains.velocity.fill(u);
+        at_grains.size.fill(law.size(0.3, 1000.0, D));
+        at_grains.set_fluctuation(0, [0.02, 0.0, -0.01]);
+        at_grains.drag(0, 0.5 * D, [0.3, 0.05, 0.02])
     };
     for u in [0.1, 0.28, 0.5, 1.0] {
         let numerical = (at(u + 1e-6).force[0] - at(u - 1e-6).force[0]) / 2e-6;
@@ -124,10 +124,10 @@ fn the_whole_weight_pulls_along_the_flow_and_the_submerged_one_normal_to_it() {
 #[test]
 fn there_is_no_drag_above_the_surface() {
     let law = DallavalleGrain { constant: 0.4, exponent: 3.1 };
-    let mut felt = Felt::new(law, law.viscous(1e-6, D), 4, D, 1);
-    felt.velocity[..4].fill(1.0);
-    felt.size[..4].fill(law.size(0.0, 1000.0, D));
-    let at = |z: f64| felt.drag(0, z, [0.0; 3]).force[0];
+    let mut at_grains = FluidAtGrains::new(law, law.viscous(1e-6, D), 4, D, 1);
+    at_grains.velocity[..4].fill(1.0);
+    at_grains.size[..4].fill(law.size(0.0, 1000.0, D));
+    let at = |z: f64| at_grains.drag(0, z, [0.0; 3]).force[0];
     assert!(at(3.99 * D) > 0.0 && at(-0.2 * D) > 0.0);
     assert_eq!((at(4.01 * D), at(1e3 * D)), (0.0, 0.0));
 }
@@ -175,7 +175,7 @@ fn eddies_turn_over_with_the_water_and_differ_from_grain_to_grain() {
     let mut eddies = || {
         run.stir();
         assert_eq!(run.turn, (depth / speed / run.engine.settings().dt).round() as u64);
-        let carried: Vec<f64> = run.exchange.felt.carried().collect();
+        let carried: Vec<f64> = run.exchange.at_grains.carried().collect();
         carried.chunks(4).map(|c| [c[0], c[1], c[2]]).collect::<Vec<_>>()
     };
     let (first, second) = (eddies(), eddies());
@@ -200,9 +200,9 @@ fn a_grain_settles_at_the_terminal_velocity() {
     let mut exchange = Exchange::new(&case, 90.0 * D, 1).unwrap();
     exchange.look(&engine, 0.0);
     // A single grain in so small a box is not dilute: the hindrance of clear water.
-    exchange.felt.size[..].fill(case.drag.size(0.0, 1000.0, D));
+    exchange.at_grains.size[..].fill(case.drag.size(0.0, 1000.0, D));
     for _ in 0..7000 {
-        engine.step(&exchange.felt).unwrap();
+        engine.step(&exchange.at_grains).unwrap();
     }
     let weight = std::f64::consts::PI / 6.0 * D.powi(3) * 1500.0 * 9.81;
     let (mut low, mut high) = (0.0, 2.0);
@@ -231,8 +231,8 @@ fn any_coupling_period_leads_to_the_same_flow_through_grains_that_cannot_move() 
         for _ in 0..(time / period) as usize {
             exchange.look(&engine, dt);
             // The drag does not change while the grains rest: one step of the whole period.
-            engine.step(&exchange.felt).unwrap();
-            exchange.felt.repeat(period / dt);
+            engine.step(&exchange.at_grains).unwrap();
+            exchange.at_grains.repeat(period / dt);
             exchange.advance(period, 1).unwrap();
         }
         exchange.look(&engine, dt);
@@ -254,7 +254,7 @@ fn what_the_fluid_loses_the_grains_get() {
     for _ in 0..50 {
         exchange.look(&engine, dt);
         for _ in 0..100 {
-            engine.step(&exchange.felt).unwrap();
+            engine.step(&exchange.at_grains).unwrap();
         }
         let inertia = |e: &Exchange| {
             let cells = e.phi().iter().zip(e.column.velocity());
