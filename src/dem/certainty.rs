@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn the_standard_error_covers_the_truth_as_often_as_it_should() {
+    fn the_standard_error_covers_the_exact_mean_as_often_as_it_should() {
         // Variance of the mean of n values with correlation a: about 0.04 (1 + a)/(1 - a)/n.
         let inside = (0..200)
             .filter(|&seed| {

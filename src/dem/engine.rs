@@ -345,7 +345,7 @@ impl<C: ContactLaw> Engine<C> {
         changed
     }
 
-    /// The account of energies and momentum begins again now.
+    /// Restarts the balances of energy and momentum.
     pub fn begin_ledger(&mut self) {
         self.ledger.begin(self.grains.kinetic_energy(), self.grains.momentum());
     }

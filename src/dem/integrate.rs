@@ -1,7 +1,7 @@
 //! Leapfrog: velocities at half steps, positions at whole ones.
 //!
 //! v(t + h/2) = v(t - h/2) + h f(t)/m, x(t + h) = x(t) + h v(t + h/2), and R ω as v with 5/2 of the torque over R.
-//! The work of a force over the kick is f · (v- + v+) h/2 exactly, so the kinetic energy can be accounted for to round-off.
+//! The work of a force over the kick is f · (v- + v+) h/2 exactly, so the kinetic energy balances to round-off.
 #![allow(unsafe_code, reason = "instructions chosen at run time")]
 
 use super::body::{Body, GrainState};

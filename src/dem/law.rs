@@ -204,7 +204,7 @@ impl ContactLaw for LinearSpring {
         };
         let push = all(self.k_n) * overlap - share * damping * parting;
         let pushing = L::select(push.above(zero), push, zero);
-        let (f_n, held) = match self.tension {
+        let (f_n, pressing) = match self.tension {
             Tension::Cut => (pushing, pushing),
             Tension::Kept if self.lammps.is_some() => (push, L::select(push.above(zero), push, -push)),
             Tension::Kept => (push, pushing),
@@ -213,7 +213,7 @@ impl ContactLaw for LinearSpring {
         let longer = plus(spring, scale(all(dt), sliding));
         let flat = minus(longer, scale(dot(longer, normal), normal));
         let pull = all(self.k_s) * dot(flat, flat).sqrt();
-        let cap = all(self.mu) * held;
+        let cap = all(self.mu) * pressing;
         let slips = pull.above(cap);
         // Where nothing slips the quotient is not used, and 0/0 stays away from the result.
         let kept = L::select(slips, cap / pull, all(1.0));

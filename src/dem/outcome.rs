@@ -1,4 +1,4 @@
-//! What a bed of grains reports: profile, means with their errors, the account of energies.
+//! What a bed of grains reports: profile, means with their errors, the energy balance.
 
 use super::average::{Averaged, Averages};
 use super::certainty::{of_series, resolved};
@@ -16,39 +16,71 @@ use crate::result::{
 
 /// Blocks of the scalar means.
 const BLOCKS: usize = 10;
-/// Most rows of the time series.
-const ROWS: usize = 400;
+/// Most samples of the time series.
+const MAX_SAMPLES: usize = 400;
+/// Numbers of a sample.
+const WIDTH: usize = 8;
 
-/// Scalars over the samples.
+/// Scalars of one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Sample {
+    /// time \[s]
+    time: f64,
+    /// kinetic energy \[J]
+    kinetic_energy: f64,
+    /// transport rate [m2/s]
+    transport_rate: f64,
+    /// mean velocity of the mobile grains along the flow [m/s]
+    velocity: f64,
+    /// contacts of a mobile grain
+    coordination: f64,
+    /// normal force of fixed grains and walls over the weight of the mobile grains
+    support: f64,
+    /// tangential over normal force of fixed grains and walls
+    friction: f64,
+    /// largest overlap over the sum of the radii
+    overlap: f64,
+}
+
+impl Sample {
+    fn numbers(&self) -> [f64; WIDTH] {
+        let Self { time, kinetic_energy, transport_rate, velocity, coordination, support, friction, overlap } = *self;
+        [time, kinetic_energy, transport_rate, velocity, coordination, support, friction, overlap]
+    }
+
+    fn of(numbers: [f64; WIDTH]) -> Self {
+        let [time, kinetic_energy, transport_rate, velocity, coordination, support, friction, overlap] = numbers;
+        Self { time, kinetic_energy, transport_rate, velocity, coordination, support, friction, overlap }
+    }
+}
+
+/// Scalars over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Means {
-    /// of each sample: time, kinetic energy, transport rate, mean velocity, coordination, support, friction, overlap
-    rows: Vec<[f64; WIDTH]>,
+    samples: Vec<Sample>,
     spare: Vec<[f64; WIDTH]>,
 }
 
-const WIDTH: usize = 8;
-
 impl Saved for Means {
     fn numbers(&mut self) -> Vec<&mut f64> {
-        // As many rows as there can be: what is not used is not a number.
-        self.spare = self.rows.clone();
-        self.spare.resize(ROWS, [f64::NAN; WIDTH]);
+        // As many samples as there can be: what is not used is not a number.
+        self.spare = self.samples.iter().map(Sample::numbers).collect();
+        self.spare.resize(MAX_SAMPLES, [f64::NAN; WIDTH]);
         self.spare.iter_mut().flatten().collect()
     }
 
     fn fill(&mut self, from: &mut super::checkpoint::Reader<'_>) -> Result<(), CheckpointError> {
-        if from.whole()? != (ROWS * WIDTH) as u64 {
+        if from.whole()? != (MAX_SAMPLES * WIDTH) as u64 {
             return Err(CheckpointError::Corrupt { what: "the means" });
         }
-        self.rows.clear();
-        for _ in 0..ROWS {
-            let mut row = [0.0; WIDTH];
-            for x in &mut row {
+        self.samples.clear();
+        for _ in 0..MAX_SAMPLES {
+            let mut numbers = [0.0; WIDTH];
+            for x in &mut numbers {
                 *x = from.number()?;
             }
-            if row[0].is_finite() {
-                self.rows.push(row);
+            if numbers[0].is_finite() {
+                self.samples.push(Sample::of(numbers));
             }
         }
         Ok(())
@@ -58,7 +90,7 @@ impl Saved for Means {
 impl Means {
     /// Adds the present state.
     pub fn sample(&mut self, engine: &Engine<LinearSpring>, bed: &GrainBed) {
-        if self.rows.len() == ROWS {
+        if self.samples.len() == MAX_SAMPLES {
             return;
         }
         let grains = engine.grains();
@@ -85,39 +117,37 @@ impl Means {
             push += sign * contact.force[2];
             drag -= sign * contact.force[0];
         }
-        let kinetic = grains.kinetic_energy();
         let area = bed.size[0] * bed.size[1];
-        let time = engine.steps() as f64 * engine.settings().dt;
-        self.rows.push([
-            time,
-            kinetic,
-            rate / area,
-            speed / bed.mobile as f64,
-            touches / bed.mobile as f64,
-            push / (weight * gz.abs()),
-            if gx == 0.0 && push == 0.0 { 0.0 } else { drag / push },
+        self.samples.push(Sample {
+            time: engine.steps() as f64 * engine.settings().dt,
+            kinetic_energy: grains.kinetic_energy(),
+            transport_rate: rate / area,
+            velocity: speed / bed.mobile as f64,
+            coordination: touches / bed.mobile as f64,
+            support: push / (weight * gz.abs()),
+            friction: if gx == 0.0 && push == 0.0 { 0.0 } else { drag / push },
             overlap,
-        ]);
+        });
     }
 
     /// Mean velocity so far [m/s].
     #[must_use]
     pub fn velocity(&self) -> Option<f64> {
-        self.mean(3).map(|estimate| estimate.mean)
+        self.mean(|sample| sample.velocity).map(|estimate| estimate.mean)
     }
 
-    fn column(&self, column: usize) -> Vec<f64> {
-        self.rows.iter().map(|row| row[column]).collect()
+    fn values(&self, value: fn(&Sample) -> f64) -> Vec<f64> {
+        self.samples.iter().map(value).collect()
     }
 
-    /// Mean of a column and its standard error by blocks.
-    fn mean(&self, column: usize) -> Option<Estimate> {
-        of_series(&self.column(column), &[BLOCKS])
+    /// Mean of `value` and its standard error by blocks.
+    fn mean(&self, value: fn(&Sample) -> f64) -> Option<Estimate> {
+        of_series(&self.values(value), &[BLOCKS])
     }
 
     /// Whether the samples of the velocity are enough for standard errors.
     fn resolved(&self) -> Result<(), Unknown> {
-        resolved(&self.column(3))
+        resolved(&self.values(|sample| sample.velocity))
     }
 }
 
@@ -144,17 +174,18 @@ pub fn outcome(
     }
     let mut results = Results::default();
     results.set(&q::GRAINS, bed.mobile as f64);
-    let mut mean = |quantity, column, scale: f64| match means.mean(column) {
+    let mut mean = |quantity, value: fn(&Sample) -> f64, scale: f64| match means.mean(value) {
         Some(estimate) => results.set_mean(quantity, estimate.times(scale)),
         None => results.undefined(quantity, "nothing was averaged yet"),
     };
-    mean(&q::TRANSPORT_RATE, 2, 1.0);
-    mean(&q::MEAN_VELOCITY, 3, 1.0);
-    mean(&q::COORDINATION, 4, 1.0);
-    mean(&q::WEIGHT_RATIO, 5, 1.0);
-    mean(&q::FRICTION_WALLS, 6, 1.0);
-    mean(&q::KINETIC_LEFT, 1, 1.0 / (bed.mobile as f64 * bed.mass() * bed.g * bed.d));
-    let deepest = means.rows.iter().map(|row| row[7]).fold(0.0, f64::max);
+    mean(&q::TRANSPORT_RATE, |sample| sample.transport_rate, 1.0);
+    mean(&q::MEAN_VELOCITY, |sample| sample.velocity, 1.0);
+    mean(&q::COORDINATION, |sample| sample.coordination, 1.0);
+    mean(&q::WEIGHT_RATIO, |sample| sample.support, 1.0);
+    mean(&q::FRICTION_WALLS, |sample| sample.friction, 1.0);
+    let potential = bed.mobile as f64 * bed.mass() * bed.g * bed.d;
+    mean(&q::KINETIC_LEFT, |sample| sample.kinetic_energy, 1.0 / potential);
+    let deepest = means.samples.iter().map(|sample| sample.overlap).fold(0.0, f64::max);
     results.set(&q::OVERLAP, deepest);
     let level = bed_level(&averaged);
     match level {
@@ -187,11 +218,11 @@ pub fn outcome(
     }
     let profile = profile(bed, &averaged)?;
     let mut series = None;
-    if !means.rows.is_empty() {
-        let rows = |column: usize| means.rows.iter().map(|row| Some(row[column])).collect::<Vec<_>>();
-        let mut table = Series::new((0..means.rows.len()).map(|i| i as f64).collect())?;
-        table.push(&q::TIME, rows(0))?;
-        table.push(&q::KINETIC_ENERGY, rows(1))?;
+    if !means.samples.is_empty() {
+        let column = |value: fn(&Sample) -> f64| means.values(value).into_iter().map(Some).collect::<Vec<_>>();
+        let mut table = Series::new((0..means.samples.len()).map(|i| i as f64).collect())?;
+        table.push(&q::TIME, column(|sample| sample.time))?;
+        table.push(&q::KINETIC_ENERGY, column(|sample| sample.kinetic_energy))?;
         series = Some(table);
     }
     let kinetic = engine.grains().kinetic_energy();

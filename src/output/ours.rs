@@ -121,7 +121,7 @@ pub(super) fn remove(folder: &Path, kind: Kind) {
     let _ = fs::remove_dir(folder);
 }
 
-/// Removes the folder whose place `new` has taken. What somebody put there since it was judged moves along.
+/// Removes the folder whose place `new` has taken. What somebody put there since it was checked moves along.
 pub(super) fn retire(old: &Path, new: &Path, kind: Kind) {
     remove(old, kind);
     // What cannot be moved stays where it is.

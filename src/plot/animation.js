@@ -133,8 +133,8 @@ class Animation {
     to.fillText(`length ${this.shown.toPrecision(3)} m${whole}`, narrow ? 0 : width, height + (narrow ? 36 : 18));
     this.slider.value = this.at;
     const slower = 1 / (RATE * this.interval);
-    const pace = slower < 1 ? `${(1 / slower).toPrecision(2)} times faster` : `${slower.toPrecision(2)} times slower`;
-    this.clock.textContent = `t = ${(this.begin + this.at * this.interval).toFixed(3)} s, ${pace} than in nature`;
+    const rate = slower < 1 ? `${(1 / slower).toPrecision(2)} times faster` : `${slower.toPrecision(2)} times slower`;
+    this.clock.textContent = `t = ${(this.begin + this.at * this.interval).toFixed(3)} s, ${rate} than in nature`;
   }
 }
 

@@ -215,7 +215,7 @@ catalogue! {
     STACK_ERROR = "stack_error", "error of the stack", "max |Δδ/δ|", "1", "overlaps of three grains at rest, relative to the weight that each carries over k_n";
     MOMENTUM_ERROR = "momentum_error", "drift of the momentum", "max |Δp|/Σ|p|", "1", "of a free cluster and of a periodic box, relative to the sum of magnitudes";
     ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "drift of the angular momentum", "max |ΔL|/Σ|L|", "1", "of a free cluster, relative to the sum of magnitudes";
-    LEDGER_ERROR = "energy_ledger_error", "defect of the account of energies", "ΔE/E", "1", "kinetic energy against all work over a million steps, relative to the largest";
+    LEDGER_ERROR = "energy_ledger_error", "defect of the energy balance", "ΔE/E", "1", "kinetic energy against all work over a million steps, relative to the largest";
     SPRING_DEFECT = "spring_energy_defect", "defect of the spring energy", "max |ΔE|/E", "1", "kinetic and spring energy within an elastic impact at 0.7 of the limit of the pair, relative to the energy before";
     SPRING_DEFECT_FINE = "spring_energy_defect_fine", "defect of the spring energy at a tenth of the step", "max |ΔE|/E", "1", "the same at a tenth of that step";
     SPRING_ORDER = "spring_energy_order", "order of the spring energy", "p", "1", "observed between both";

@@ -11,7 +11,7 @@ use bedload::result::Profile;
 use bedload::result::quantity as q;
 use serde_json::Value;
 
-use crate::grains::said;
+use crate::grains::written;
 use crate::support::Scratch;
 
 /// A short piece of the narrow flume.
@@ -90,7 +90,7 @@ fn a_flume_that_is_killed_goes_on_to_the_same_bits() {
     }
     assert!(kills > 0, "no run was killed");
     scratch.bedload(case(&[&resumed[..], &["--threads", "2"]].concat())).exits(0);
-    let (mut found, mut expected) = (said(&scratch, "out"), said(&scratch, "whole"));
+    let (mut found, mut expected) = (written(&scratch, "out"), written(&scratch, "whole"));
     for files in [&mut found, &mut expected] {
         files.retain(|name, _| name.extension().is_some_and(|e| e == "csv") || name.ends_with("motion.json"));
     }
@@ -121,8 +121,8 @@ fn what_few_samples_tell_has_no_error_and_ends_no_run() {
         scratch.bedload(words.into_iter().chain(more.iter().flat_map(|set| ["--set", *set]))).exits(0).out
     };
     for (out, duration) in [("one", "discrete.duration=0.1 s"), ("few", "discrete.duration=1 s")] {
-        let said = run(&[duration, "discrete.known_to=1"], out);
-        assert!(said.contains("error unknown: too few samples") && !said.contains('±'), "{said}");
+        let reported = run(&[duration, "discrete.known_to=1"], out);
+        assert!(reported.contains("error unknown: too few samples") && !reported.contains('±'), "{reported}");
         let summary = scratch.summary(out);
         for name in ["transport_rate_m2_s", "bed_level_m", "shields_turbulent", "shields", "u_star_m_s"] {
             let reported = &summary["results"][name];

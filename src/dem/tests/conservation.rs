@@ -14,7 +14,7 @@ fn momentum_and_angular_momentum_are_kept_to_round_off() {
 }
 
 #[test]
-fn the_accounts_of_energy_and_momentum_close_to_round_off() {
+fn the_balances_of_energy_and_momentum_close_to_round_off() {
     let all =
         clouds::ledger(&Verification { velocity: 1.0, ..verification(Which::Ledger, 0.9, 30.0) }, 100_000).unwrap();
     println!("{:?}", all.iter().map(|(q, x)| (q.name, *x)).collect::<Vec<_>>());
@@ -23,7 +23,7 @@ fn the_accounts_of_energy_and_momentum_close_to_round_off() {
 }
 
 #[test]
-fn what_fixed_grains_and_walls_take_is_in_the_account_of_momentum() {
+fn what_fixed_grains_and_walls_take_is_in_the_balance_of_momentum() {
     let mut grains = gas(60, 0.03, 0.2);
     for n in 0..25 {
         let at = [(f64::from(n % 5) + 0.5) * 6e-3, (f64::from(n / 5) + 0.5) * 6e-3, -R];

@@ -1,6 +1,7 @@
 //! What a coupled run reports: profiles with their errors, transport rate, Shields numbers, balances.
 
 use super::freeze::FrozenBed;
+use super::record::Sample;
 use super::run::Run;
 use super::theory;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
@@ -35,7 +36,8 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let stress = flow.stress_scale();
     let velocity = ((bed.rho_p / flow.rho_f - 1.0) * bed.g * bed.d).sqrt();
     let grain = std::f64::consts::PI / 6.0 * bed.d.powi(3);
-    let rate = run.record.mean(3, first);
+    let rate = run.record.mean(|sample| sample.transport_rate, first);
+    let level = run.record.mean(|sample| sample.level, first);
     let mut set = |quantity, estimate: Option<Estimate>, scale: f64| match estimate {
         Some(estimate) => results.set_mean(quantity, estimate.times(scale)),
         None => results.undefined(quantity, "nothing was sampled yet"),
@@ -44,8 +46,8 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     set(&q::TRANSPORT_RATE_DIMENSIONLESS, rate, 1.0 / (bed.d * velocity));
     set(&q::TRANSPORT_RATE_BEADS, rate, bed.size[1] / grain);
     set(&q::TRANSPORT_RATE_MASS, rate, bed.rho_p);
-    set(&q::BED_LEVEL, run.record.mean(5, first), 1.0);
-    set(&q::MEAN_VELOCITY, run.record.mean(6, first), 1.0);
+    set(&q::BED_LEVEL, level, 1.0);
+    set(&q::MEAN_VELOCITY, run.record.mean(|sample| sample.velocity, first), 1.0);
     // The largest of the mean stress; its error is that of the cell where it is.
     let largest = fluid.iter().map(|cell| cell[1]).reduce(|a, b| if b.mean > a.mean { b } else { a });
     set(&q::SHIELDS_TURBULENT, largest, 1.0 / stress);
@@ -55,7 +57,6 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     });
     set(&q::U_STAR, star, 1.0);
     let height = run.exchange.cell_height() * fluid.len() as f64;
-    let level = run.record.mean(5, first);
     let pull = flow.rho_f * bed.g * bed.beta.sin();
     let depth = level.map(|level| Estimate { mean: height - level.mean, ..level });
     set(&q::WATER_DEPTH, depth, 1.0);
@@ -70,7 +71,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     if let Some((_, bulk)) = bed_level(&averaged) {
         results.set(&q::PHI_BULK, bulk);
     }
-    let start = run.record.rows.iter().find(|row| row[1] as usize >= first).map_or(0.0, |row| row[0]);
+    let start = run.record.samples.iter().find(|sample| sample.block >= first).map_or(0.0, |sample| sample.time);
     results.set(&q::TRANSIENT, start);
     results.set(&q::AVERAGED_TIME, run.time() - start);
     results.set(&q::TIME_STEP, run.engine.settings().dt);
@@ -116,14 +117,16 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
         table = Some(made);
     }
     let mut series = None;
-    if !run.record.rows.is_empty() {
-        let rows = |column: usize, scale: f64| run.record.rows.iter().map(|row| Some(scale * row[column])).collect();
-        let mut made = Series::new((0..run.record.rows.len()).map(|i| i as f64).collect())?;
-        made.push(&q::TIME, rows(0, 1.0))?;
-        made.push(&q::KINETIC_ENERGY, rows(2, 1.0))?;
-        made.push(&q::RATE_IN_TIME, rows(3, 1.0))?;
-        made.push(&q::SHIELDS_IN_TIME, rows(4, 1.0 / stress))?;
-        made.push(&q::LEVEL_IN_TIME, rows(5, 1.0))?;
+    let samples = &run.record.samples;
+    if !samples.is_empty() {
+        let column = |value: fn(&Sample) -> f64| samples.iter().map(|sample| Some(value(sample))).collect();
+        let shields = samples.iter().map(|sample| Some(1.0 / stress * sample.reynolds)).collect();
+        let mut made = Series::new((0..samples.len()).map(|i| i as f64).collect())?;
+        made.push(&q::TIME, column(|sample| sample.time))?;
+        made.push(&q::KINETIC_ENERGY, column(|sample| sample.kinetic_energy))?;
+        made.push(&q::RATE_IN_TIME, column(|sample| sample.transport_rate))?;
+        made.push(&q::SHIELDS_IN_TIME, shields)?;
+        made.push(&q::LEVEL_IN_TIME, column(|sample| sample.level))?;
         series = Some(made);
     }
     let densest = averaged.phi.iter().flatten().map(|phi| phi.mean).fold(0.0, f64::max);

@@ -23,8 +23,8 @@ use crate::result::{CheckpointError, Failure, Figure, Outcome};
 pub struct Coupled {
     /// the grains, their bed and channel
     pub bed: GrainBed,
-    /// largest elevation of the fixed grains, and the step between elevations \[m]
-    pub relief: (f64, f64),
+    /// elevations of the fixed grains
+    pub relief: Relief,
     /// density of the fluid [kg/m3]
     pub rho_f: f64,
     /// viscosity of the fluid [Pa s]
@@ -64,6 +64,15 @@ pub struct Freeze {
     pub period: f64,
     /// time of the first check \[s]
     pub after: f64,
+}
+
+/// Elevations of the fixed grains around their mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relief {
+    /// largest elevation \[m]
+    pub largest: f64,
+    /// step between elevations \[m]
+    pub step: f64,
 }
 
 /// Where the free surface is.
@@ -116,20 +125,21 @@ impl Model for Coupled {
         };
         let across = if flow.side_walls { (flow.width / d).floor() } else { flow.width / d };
         let count = bed.layers * (flow.length / d) * across.max(1.0);
-        let mut room = |path, name: &'static str, value: f64, least: f64, most: f64| {
+        let mut within = |path, name: &'static str, value: f64, least: f64, most: f64| {
             if !(least..=most).contains(&value) {
                 faults.push((path, BedFault::GrainRoom { name, value, least, most }));
             }
         };
-        room("flow.length", "flow.length", flow.length, 4.0 * d, 1e3);
-        room("flow.width", "flow.width", flow.width, if flow.side_walls { d } else { 4.0 * d }, 1e3);
-        room("bed.layers", "the number of mobile grains", count, 1.0, MAX_GRAINS);
-        let relief = (bed.relief.unwrap_or(d / 3.0), bed.relief_step.or(bed.relief).unwrap_or(d / 3.0));
+        within("flow.length", "flow.length", flow.length, 4.0 * d, 1e3);
+        within("flow.width", "flow.width", flow.width, if flow.side_walls { d } else { 4.0 * d }, 1e3);
+        within("bed.layers", "the number of mobile grains", count, 1.0, MAX_GRAINS);
+        let relief =
+            Relief { largest: bed.relief.unwrap_or(d / 3.0), step: bed.relief_step.or(bed.relief).unwrap_or(d / 3.0) };
         if bed.bottom == Bottom::Steps {
-            room("bed.relief", "bed.relief", relief.0, 0.0, d);
+            within("bed.relief", "bed.relief", relief.largest, 0.0, d);
         }
         let CoupledDiscrete { coupling_period, sample_period, duration, .. } = *discrete;
-        room("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
+        within("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
         if closures.side_wall != SideWall::None && !flow.side_walls {
             let fault = Fault::LawMismatch {
                 family: "side_wall".into(),

@@ -7,7 +7,7 @@ use crate::dem::GrainBed;
 use crate::dem::average::Averages;
 use crate::dem::body::Nothing;
 use crate::dem::checkpoint::{Reader, Saved, Writer};
-use crate::dem::deposit::{BETWEEN, pace};
+use crate::dem::deposit::{BETWEEN, progress_text};
 use crate::dem::drive::{self, Flow, GrainFlow, Progress};
 use crate::dem::engine::Engine;
 
@@ -128,7 +128,7 @@ impl<'a> Flow<'a> for Tilted<'a> {
     }
 
     fn progress(&self, made: u64, since: Instant) -> Progress {
-        let stage = pace("flowing", made, since, self.steps - self.made);
+        let stage = progress_text("flowing", made, since, self.steps - self.made);
         Progress { stage, quantity: self.means.velocity().map(|u| (&q::MEAN_VELOCITY, u)) }
     }
 

@@ -1,6 +1,6 @@
-//! Grains of several sizes that fly about and collide: what is conserved, and what is accounted for.
+//! Grains of several sizes that fly about and collide: conserved quantities, and the energy balance.
 
-use super::{Findings, accounted};
+use super::{Findings, energy_defect};
 use crate::dem::body::Nothing;
 use crate::dem::keep::law;
 use crate::dem::{Domain, Engine, Grain, LinearSpring, Point, Settings, Wall};
@@ -71,7 +71,7 @@ pub fn cluster(problem: &Verification) -> Result<Findings, SolveError> {
         for _ in 0..2000 {
             engine.step(&Nothing)?;
         }
-        energy = energy.max(accounted(&engine));
+        energy = energy.max(energy_defect(&engine));
         let (p, l, _) = momenta(&engine);
         for k in 0..3 {
             linear = linear.max((p[k] - p0[k]).abs() / scale[0]);
@@ -99,7 +99,7 @@ pub fn ledger(problem: &Verification, steps: usize) -> Result<Findings, SolveErr
         engine.step(&Nothing)?;
     }
     Ok(vec![
-        (&q::LEDGER_ERROR, accounted(&engine)),
+        (&q::LEDGER_ERROR, energy_defect(&engine)),
         (&q::MOMENTUM_ERROR, engine.ledger().momentum_defect(engine.grains().momentum())),
     ])
 }

@@ -1,7 +1,7 @@
 //! Impacts by the hundred: restitution, duration, gross slip, energy.
 
 use super::super::impact::{Found, follow, follow_from};
-use super::{Findings, accounted};
+use super::{Findings, energy_defect};
 use crate::closures::contact::Tension;
 use crate::dem::body::Nothing;
 use crate::dem::keep::law;
@@ -156,7 +156,7 @@ pub fn springs(problem: &Verification) -> Result<Findings, SolveError> {
             worst = worst.max((0.5 * (before + after) + spring - initial).abs() / initial);
             before = after;
         }
-        energy = energy.max(accounted(&engine));
+        energy = energy.max(energy_defect(&engine));
         Ok(worst)
     };
     // How far into a step the touch falls differs: the worst of steps that are close.

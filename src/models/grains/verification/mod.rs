@@ -45,7 +45,7 @@ fn findings(problem: &Verification) -> Result<Findings, SolveError> {
 }
 
 /// Defect of the energy balance of `engine`, relative to the largest of them.
-fn accounted(engine: &Engine<LinearSpring>) -> f64 {
+fn energy_defect(engine: &Engine<LinearSpring>) -> f64 {
     let kinetic = engine.grains().kinetic_energy();
     let scale = engine.ledger().scale(kinetic);
     if scale > 0.0 { engine.ledger().defect(kinetic).abs() / scale } else { 0.0 }

@@ -1,6 +1,6 @@
 //! Grains on a plane: sliding, bouncing, stacked.
 
-use super::{Findings, accounted};
+use super::{Findings, energy_defect};
 use crate::closures::contact::restitution;
 use crate::dem::body::Nothing;
 use crate::dem::keep::law;
@@ -57,7 +57,7 @@ pub fn rolling(problem: &Verification) -> Result<Findings, SolveError> {
     Ok(vec![
         (&q::ROLLING_TIME_ERROR, rolling / expected - 1.0),
         (&q::ROLLING_VELOCITY_ERROR, off[0].max(off[1])),
-        (&q::LEDGER_ERROR, accounted(&engine)),
+        (&q::LEDGER_ERROR, energy_defect(&engine)),
     ])
 }
 
@@ -82,7 +82,7 @@ pub fn bouncing(problem: &Verification) -> Result<Findings, SolveError> {
         }
         worst = worst.max(((engine.grains().position(0)[2] - r) / expected - 1.0).abs());
     }
-    Ok(vec![(&q::BOUNCE_ERROR, worst), (&q::LEDGER_ERROR, accounted(&engine))])
+    Ok(vec![(&q::BOUNCE_ERROR, worst), (&q::LEDGER_ERROR, energy_defect(&engine))])
 }
 
 /// Three grains at rest: each contact is pressed together by what stands on it.
@@ -105,5 +105,5 @@ pub fn stack(problem: &Verification) -> Result<Findings, SolveError> {
     let z: Vec<f64> = engine.grains().listed().iter().map(|grain| grain.position[2]).collect();
     let overlaps = [r - z[0], 2.0 * r - (z[1] - z[0]), 2.0 * r - (z[2] - z[1])];
     let off = overlaps.into_iter().zip([3.0, 2.0, 1.0]).map(|(overlap, load)| (overlap / (load * sunk) - 1.0).abs());
-    Ok(vec![(&q::STACK_ERROR, off.fold(0.0, f64::max)), (&q::LEDGER_ERROR, accounted(&engine))])
+    Ok(vec![(&q::STACK_ERROR, off.fold(0.0, f64::max)), (&q::LEDGER_ERROR, energy_defect(&engine))])
 }
