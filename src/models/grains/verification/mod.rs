@@ -66,7 +66,7 @@ pub fn equations(problem: &Verification) -> String {
         Which::Springs => "an elastic impact without friction",
     };
     format!(
-        "Verification: {what}; d = {} m, ρ_p = {} kg/m³, v = {} m/s, g = {} m/s².\n\n{}",
+        "Trial: {what}; d = {} m, ρ_p = {} kg/m³, v = {} m/s, g = {} m/s².\n\n{}",
         n(problem.d),
         n(problem.rho_p),
         n(problem.velocity),
