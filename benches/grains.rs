@@ -9,7 +9,7 @@ use std::process::Command;
 use std::time::Instant;
 
 use bedload::closures::contact::Tension;
-use bedload::dem::body::{Body, Pushed, Seen};
+use bedload::dem::body::{Body, GrainState, Pushed};
 use bedload::dem::law::{Discrete, Lammps};
 use bedload::dem::{Domain, Engine, Grain, LinearSpring, Point, Settings};
 
@@ -195,7 +195,7 @@ fn trajectory(options: &Options) {
 struct Region;
 
 impl Body for Region {
-    fn force(&self, grain: &Seen) -> Point {
+    fn force(&self, grain: &GrainState) -> Point {
         let push = if grain.position[2] >= PUSHED.above { PUSHED.force } else { 0.0 };
         let [u, v, w] = grain.velocity;
         [push - PUSHED.drag * u, -PUSHED.drag * v, -PUSHED.drag * w]

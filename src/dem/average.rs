@@ -7,11 +7,12 @@
 
 use std::f64::consts::PI;
 
-use super::certainty::{LEAST_SAMPLES, of_blocks};
+use super::certainty::{MIN_SAMPLES, of_blocks};
 use super::checkpoint::Saved;
 use super::engine::Engine;
 use super::grains::Point;
 use super::law::ContactLaw;
+use crate::result::{Estimate, Unknown};
 
 /// Volume of the part of a sphere of radius `r` around 0 that lies between `low` and `high` \[m3].
 #[must_use]
@@ -67,39 +68,36 @@ pub struct Averages {
     blocks: Vec<Block>,
 }
 
-/// A mean, where there is one, and its standard error, where that can be told.
-pub type Mean = Option<(f64, Option<f64>)>;
-
 /// The averaged profile, one entry per slice.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Averaged {
     /// elevation of the middle \[m]
     pub z: Vec<f64>,
     /// solid fraction
-    pub phi: Vec<Mean>,
+    pub phi: Vec<Option<Estimate>>,
     /// velocity along the flow [m/s]
-    pub velocity: Vec<Mean>,
+    pub velocity: Vec<Option<Estimate>>,
     /// granular temperature [m2/s2]
-    pub temperature: Vec<Mean>,
+    pub temperature: Vec<Option<Estimate>>,
     /// shear stress, positive where the upper layer drags the lower one \[Pa]
-    pub shear: Vec<Mean>,
+    pub shear: Vec<Option<Estimate>>,
     /// normal stress \[Pa]
-    pub pressure: Vec<Mean>,
+    pub pressure: Vec<Option<Estimate>>,
     /// flux of fluctuation energy upward [W/m2]
-    pub flux: Vec<Mean>,
+    pub flux: Vec<Option<Estimate>>,
     /// what the drag takes from the fluctuations [W/m3]
-    pub drag_loss: Vec<Mean>,
+    pub drag_loss: Vec<Option<Estimate>>,
     /// what contacts take from the motion of the centres [W/m3]
-    pub contact_loss: Vec<Mean>,
+    pub contact_loss: Vec<Option<Estimate>>,
 }
 
 impl Averaged {
-    /// The same without standard errors.
+    /// The same without standard errors, for the reason `why`.
     #[must_use]
-    pub fn without_errors(mut self) -> Self {
+    pub fn without_errors(mut self, why: Unknown) -> Self {
         let Self { z: _, phi, velocity, temperature, shear, pressure, flux, drag_loss, contact_loss } = &mut self;
         for means in [phi, velocity, temperature, shear, pressure, flux, drag_loss, contact_loss] {
-            means.iter_mut().flatten().for_each(|(_, error)| *error = None);
+            means.iter_mut().flatten().for_each(|estimate| estimate.stderr = Err(why));
         }
         self
     }
@@ -142,7 +140,7 @@ impl Averages {
 
     /// Whether there are samples enough for standard errors.
     fn are_enough(&self) -> bool {
-        self.blocks.iter().map(|block| block.samples).sum::<f64>() >= LEAST_SAMPLES as f64
+        self.blocks.iter().map(|block| block.samples).sum::<f64>() >= MIN_SAMPLES as f64
     }
 
     /// Each block that has samples as a profile of its own.
@@ -156,32 +154,33 @@ impl Averages {
     pub fn sample<C: ContactLaw>(&mut self, engine: &Engine<C>, block: usize, drag: impl Fn(usize) -> Point) {
         let (bottom, thickness) = (self.bottom, self.thickness);
         let last = self.blocks.len() - 1;
-        let Block { samples, volume, momentum, squares, contact, taken } = &mut self.blocks[block.min(last)];
+        let Block { samples, volume, momentum, squares, contact: branches, taken } = &mut self.blocks[block.min(last)];
         *samples += 1.0;
         let slices = volume.len();
         let index = |z: f64| ((z - bottom) / thickness).clamp(0.0, slices as f64) as usize;
         let grains = engine.grains();
         let dot = |a: Point, b: Point| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
         let mut lost = vec![0.0; grains.len()];
-        for seen in engine.contacts() {
-            let (first, second) = (grains.velocity(seen.first), seen.second.map_or([0.0; 3], |j| grains.velocity(j)));
-            let half = 0.5 * (dot(seen.force, first) - dot(seen.force, second));
-            lost[seen.first] += half;
-            if let Some(j) = seen.second {
+        for contact in engine.contacts() {
+            let (first, second) =
+                (grains.velocity(contact.first), contact.second.map_or([0.0; 3], |j| grains.velocity(j)));
+            let half = 0.5 * (dot(contact.force, first) - dot(contact.force, second));
+            lost[contact.first] += half;
+            if let Some(j) = contact.second {
                 lost[j] += half;
             }
-            let z = grains.position(seen.first)[2];
-            let rise = seen.normal[2] * seen.distance;
+            let z = grains.position(contact.first)[2];
+            let rise = contact.normal[2] * contact.distance;
             let (low, high) = if rise > 0.0 { (z, z + rise) } else { (z + rise, z) };
             // A level branch carries no stress across levels.
             if high <= low {
                 continue;
             }
             let sign = if rise > 0.0 { 1.0 } else { -1.0 };
-            let power = 0.5 * (dot(seen.force, first) + dot(seen.force, second));
-            let carried = [-seen.force[0], seen.force[2], seen.force[1], power];
+            let power = 0.5 * (dot(contact.force, first) + dot(contact.force, second));
+            let carried = [-contact.force[0], contact.force[2], contact.force[1], power];
             let crossed = index(low)..(index(high) + 1).min(slices);
-            for (s, sums) in contact[crossed.clone()].iter_mut().enumerate().map(|(n, sums)| (n + crossed.start, sums))
+            for (s, sums) in branches[crossed.clone()].iter_mut().enumerate().map(|(n, sums)| (n + crossed.start, sums))
             {
                 let from = bottom + s as f64 * thickness;
                 let length = (high.min(from + thickness) - low.max(from)).max(0.0);
@@ -220,7 +219,7 @@ impl Averages {
     #[must_use]
     pub fn profile(&self) -> Averaged {
         let profile = self.means();
-        if self.are_enough() { profile } else { profile.without_errors() }
+        if self.are_enough() { profile } else { profile.without_errors(Unknown::TooFew) }
     }
 
     fn means(&self) -> Averaged {
@@ -273,13 +272,13 @@ impl Saved for Averages {
 }
 
 /// Mean of blocks and its standard error.
-pub(super) fn mean(values: impl Iterator<Item = f64>) -> Mean {
+pub(super) fn mean(values: impl Iterator<Item = f64>) -> Option<Estimate> {
     let values: Vec<f64> = values.collect();
     if values.is_empty() {
         return None;
     }
     let mean = values.iter().sum::<f64>() / values.len() as f64;
-    Some((mean, of_blocks(&values, mean).ok()))
+    Some(Estimate { mean, stderr: of_blocks(&values, mean) })
 }
 
 #[cfg(test)]
@@ -307,10 +306,10 @@ mod tests {
 
     #[test]
     fn the_standard_error_is_that_of_independent_blocks() {
-        let (m, e) = mean((1..=8).map(f64::from)).unwrap();
+        let Estimate { mean: m, stderr } = mean((1..=8).map(f64::from)).unwrap();
         approx::assert_relative_eq!(m, 4.5);
-        approx::assert_relative_eq!(e.unwrap(), (42.0_f64 / 56.0).sqrt());
-        assert_eq!(mean((1..=7).map(f64::from)), Some((4.0, None)));
+        approx::assert_relative_eq!(stderr.unwrap(), (42.0_f64 / 56.0).sqrt());
+        assert_eq!(mean((1..=7).map(f64::from)), Some(Estimate { mean: 4.0, stderr: Err(Unknown::TooFew) }));
         assert_eq!(mean([].into_iter()), None);
     }
 }

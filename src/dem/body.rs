@@ -2,9 +2,9 @@
 
 use super::grains::Point;
 
-/// One grain as a body force sees it.
+/// One grain as a body force takes it.
 #[derive(Clone, Copy, Debug)]
-pub struct Seen {
+pub struct GrainState {
     /// its name: place in the order of the scene
     pub id: u32,
     /// centre \[m]
@@ -18,7 +18,7 @@ pub struct Seen {
 /// A force on each grain, as a function of its own state.
 pub trait Body: Sync {
     /// Force on a mobile grain \[N].
-    fn force(&self, grain: &Seen) -> Point;
+    fn force(&self, grain: &GrainState) -> Point;
 }
 
 /// No force.
@@ -27,7 +27,7 @@ pub struct Nothing;
 
 impl Body for Nothing {
     #[inline(always)]
-    fn force(&self, _: &Seen) -> Point {
+    fn force(&self, _: &GrainState) -> Point {
         [0.0; 3]
     }
 }
@@ -45,7 +45,7 @@ pub struct Pushed {
 
 impl Body for Pushed {
     #[inline(always)]
-    fn force(&self, grain: &Seen) -> Point {
+    fn force(&self, grain: &GrainState) -> Point {
         let push = if grain.position[2] > self.above { self.force } else { 0.0 };
         let [u, v, w] = grain.velocity;
         [push - self.drag * u, -self.drag * v, -self.drag * w]

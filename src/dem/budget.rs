@@ -7,12 +7,12 @@
 //! Slopes are taken over one diameter. The loss by contacts is what the others leave of the budget, as in the source, and beside
 //! it the power that contacts take from the motion of the centres. Source: Chassagne et al. (2023), eq. (2.16), (2.27)-(2.30), (3.1).
 
-use super::average::{Averaged, Averages, Mean, mean};
+use super::average::{Averaged, Averages, mean};
 use crate::dem::GrainBed;
-use crate::result::{Quantity, quantity as q};
+use crate::result::{Estimate, Quantity, quantity as q};
 
 /// A column and its standard error.
-pub type Column = (&'static Quantity, Option<&'static Quantity>, Vec<Mean>);
+pub type Column = (&'static Quantity, Option<&'static Quantity>, Vec<Option<Estimate>>);
 
 /// Terms of the budget.
 const TERMS: usize = 7;
@@ -39,8 +39,8 @@ pub fn columns(bed: &GrainBed, averages: &Averages) -> Vec<Column> {
 /// The terms at slice `s` of one block.
 fn terms(bed: &GrainBed, block: &Averaged, s: usize) -> [Option<f64>; TERMS] {
     let half = ((0.5 / bed.discrete.slice).round() as usize).max(1);
-    let at = |means: &[Mean], s: usize| means.get(s).copied().flatten().map(|(x, _)| x);
-    let slope = |means: &[Mean]| {
+    let at = |means: &[Option<Estimate>], s: usize| means.get(s).copied().flatten().map(|x| x.mean);
+    let slope = |means: &[Option<Estimate>]| {
         let (below, above) = (s.checked_sub(half)?, s + half);
         Some((at(means, above)? - at(means, below)?) / (block.z.get(above)? - block.z[below]))
     };

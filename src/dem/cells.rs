@@ -49,7 +49,7 @@ impl Cells {
             order[*place as usize] = i as u32;
             *place += 1;
         }
-        let pick = |rows: &[super::lanes::Row]| order.iter().map(|&i| rows[i as usize]).collect::<Vec<_>>();
+        let pick = |rows: &[super::simd::Row]| order.iter().map(|&i| rows[i as usize]).collect::<Vec<_>>();
         grains.positions = pick(&grains.positions);
         grains.velocities = pick(&grains.velocities);
         grains.spins = pick(&grains.spins);

@@ -6,71 +6,21 @@
 //! has about n = t/(2 T) independent samples in the time t; twenty blocks of it are correlated by 0.33 where n is 20, 0.54
 //! where it is 10, and 0.73 where it is 5: then the time is too short.
 
+use crate::result::{Estimate, Unknown};
 use crate::units::ROUND_OFF;
 
 /// Fewest blocks of a standard error.
-pub(crate) const LEAST_BLOCKS: usize = 8;
+pub(crate) const MIN_BLOCKS: usize = 8;
 /// Fewest samples: two in each block.
-pub(crate) const LEAST_SAMPLES: usize = 2 * LEAST_BLOCKS;
+pub(crate) const MIN_SAMPLES: usize = 2 * MIN_BLOCKS;
 /// Most blocks: what they are correlated by says whether the time is long enough.
-const MOST_BLOCKS: usize = 20;
+const MAX_BLOCKS: usize = 20;
 /// Largest correlation of the means of neighbouring blocks.
 const ALIKE: f64 = 0.7;
 
-/// Why a mean has no standard error.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unknown {
-    /// fewer blocks or samples than tell anything
-    TooFew,
-    /// samples that follow each other all the time
-    TooShort,
-    /// samples that are all the same
-    Constant,
-}
-
-impl Unknown {
-    /// In words.
-    #[must_use]
-    pub fn reason(self) -> &'static str {
-        match self {
-            Self::TooFew => "too few samples",
-            Self::TooShort => "too few independent samples, the time is too short",
-            Self::Constant => "the same in every sample",
-        }
-    }
-}
-
-/// A mean and its standard error.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Known {
-    /// mean
-    pub mean: f64,
-    /// standard error, or why there is none
-    pub error: Result<f64, Unknown>,
-}
-
-impl Known {
-    /// The mean times a number.
-    #[must_use]
-    pub fn times(self, scale: f64) -> Self {
-        Self { mean: scale * self.mean, error: self.error.map(|error| scale.abs() * error) }
-    }
-
-    /// The sum of two means that fluctuate independently.
-    #[must_use]
-    pub fn plus(self, other: Self) -> Self {
-        let error = match (self.error, other.error) {
-            (Ok(a), Ok(b)) => Ok(a.hypot(b)),
-            (Err(Unknown::Constant), error) | (error, Err(Unknown::Constant)) => error,
-            (Err(why), _) | (_, Err(why)) => Err(why),
-        };
-        Self { mean: self.mean + other.mean, error }
-    }
-}
-
 /// Standard error of `mean`, the mean of independent blocks of the same length.
 pub(crate) fn of_blocks(blocks: &[f64], mean: f64) -> Result<f64, Unknown> {
-    if blocks.len() < LEAST_BLOCKS {
+    if blocks.len() < MIN_BLOCKS {
         return Err(Unknown::TooFew);
     }
     let k = blocks.len() as f64;
@@ -88,10 +38,10 @@ pub(crate) fn blocks(series: &[f64], count: usize) -> Vec<f64> {
 
 /// Whether a series is long enough for a standard error of its mean; one that never changes is.
 pub(crate) fn resolved(series: &[f64]) -> Result<(), Unknown> {
-    if series.len() < LEAST_SAMPLES {
+    if series.len() < MIN_SAMPLES {
         return Err(Unknown::TooFew);
     }
-    let means = blocks(series, MOST_BLOCKS.min(series.len()));
+    let means = blocks(series, MAX_BLOCKS.min(series.len()));
     let mean = means.iter().sum::<f64>() / means.len() as f64;
     if of_blocks(&means, mean).is_err() {
         return Ok(());
@@ -102,7 +52,7 @@ pub(crate) fn resolved(series: &[f64]) -> Result<(), Unknown> {
 }
 
 /// Mean of a series of correlated samples; its standard error is the largest of those by each number of blocks.
-pub(crate) fn of_series(series: &[f64], counts: &[usize]) -> Option<Known> {
+pub(crate) fn of_series(series: &[f64], counts: &[usize]) -> Option<Estimate> {
     if series.is_empty() {
         return None;
     }
@@ -112,7 +62,7 @@ pub(crate) fn of_series(series: &[f64], counts: &[usize]) -> Option<Known> {
         let errors = counts.iter().filter(|&&count| count <= series.len()).filter_map(by);
         errors.reduce(f64::max).ok_or(Unknown::Constant)
     };
-    Some(Known { mean, error: resolved(series).and_then(|()| largest()) })
+    Some(Estimate { mean, stderr: resolved(series).and_then(|()| largest()) })
 }
 
 #[cfg(test)]
@@ -135,16 +85,16 @@ mod tests {
     }
 
     #[test]
-    fn the_standard_error_covers_the_truth_as_often_as_it_should() {
+    fn the_standard_error_covers_the_exact_mean_as_often_as_it_should() {
         // Variance of the mean of n values with correlation a: about 0.04 (1 + a)/(1 - a)/n.
         let inside = (0..200)
             .filter(|&seed| {
-                let Known { mean, error } = of_series(&noise(1000, 5.0, seed + 10), COUNTS).unwrap();
-                (mean - 1.0).abs() < 2.0 * error.unwrap()
+                let Estimate { mean, stderr } = of_series(&noise(1000, 5.0, seed + 10), COUNTS).unwrap();
+                (mean - 1.0).abs() < 2.0 * stderr.unwrap()
             })
             .count();
         assert!(inside > 180, "{inside} of 200 within two standard errors");
-        let error = of_series(&noise(1000, 5.0, 3), COUNTS).unwrap().error.unwrap();
+        let error = of_series(&noise(1000, 5.0, 3), COUNTS).unwrap().stderr.unwrap();
         let a = (-0.2_f64).exp();
         let exact = (0.04 * (1.0 + a) / (1.0 - a) / 1000.0).sqrt();
         assert!((0.6..2.0).contains(&(error / exact)), "{error} {exact}");
@@ -153,15 +103,15 @@ mod tests {
     #[test]
     fn too_few_samples_and_samples_that_are_all_the_same_give_no_error() {
         assert_eq!(of_series(&[], COUNTS), None);
-        for n in 1..LEAST_SAMPLES {
+        for n in 1..MIN_SAMPLES {
             let few = of_series(&noise(n as u64, 0.1, 5), COUNTS).unwrap();
-            assert_eq!(few.error, Err(Unknown::TooFew), "{n} samples");
+            assert_eq!(few.stderr, Err(Unknown::TooFew), "{n} samples");
         }
-        let enough = of_series(&noise(LEAST_SAMPLES as u64, 0.1, 5), COUNTS).unwrap();
-        assert!(enough.error.is_ok_and(|error| error > 0.0), "{enough:?}");
+        let enough = of_series(&noise(MIN_SAMPLES as u64, 0.1, 5), COUNTS).unwrap();
+        assert!(enough.stderr.is_ok_and(|error| error > 0.0), "{enough:?}");
         for value in [0.0, 0.1, -3.0] {
             let same = of_series(&[value; 80], COUNTS).unwrap();
-            assert_eq!(same.error, Err(Unknown::Constant), "{value}");
+            assert_eq!(same.stderr, Err(Unknown::Constant), "{value}");
         }
         assert_eq!(of_blocks(&[1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 1.0], 1.5), Err(Unknown::TooFew));
     }
@@ -169,25 +119,15 @@ mod tests {
     #[test]
     fn a_time_shorter_than_the_samples_stay_alike_gives_no_error() {
         let drift: Vec<f64> = (0..500).map(|i| 1.0 + 0.01 * f64::from(i)).collect();
-        assert_eq!(of_series(&drift, COUNTS).unwrap().error, Err(Unknown::TooShort));
+        assert_eq!(of_series(&drift, COUNTS).unwrap().stderr, Err(Unknown::TooShort));
         let swing: Vec<f64> = (0..500).map(|i| (0.0125 * f64::from(i)).sin()).collect();
-        assert_eq!(of_series(&swing, COUNTS).unwrap().error, Err(Unknown::TooShort));
+        assert_eq!(of_series(&swing, COUNTS).unwrap().stderr, Err(Unknown::TooShort));
         let without = |n: u64, t: f64| {
-            let unknown = |seed: &u64| of_series(&noise(n, t, 1000 + seed), COUNTS).unwrap().error.is_err();
+            let unknown = |seed: &u64| of_series(&noise(n, t, 1000 + seed), COUNTS).unwrap().stderr.is_err();
             (0..200).filter(unknown).count()
         };
         // One independent sample, twenty, a hundred.
         let (one, twenty, hundred) = (without(400, 200.0), without(400, 10.0), without(1000, 5.0));
         assert!(one > 100 && twenty < 10 && hundred == 0, "{one} {twenty} {hundred} of 200");
-    }
-
-    #[test]
-    fn errors_of_independent_means_add_as_squares() {
-        let known = |mean, error| Known { mean, error };
-        let (a, b) = (known(1.0, Ok(0.3)), known(2.0, Ok(0.4)));
-        assert_eq!(a.plus(b), known(3.0, Ok(0.5)));
-        assert_eq!(a.plus(known(2.0, Err(Unknown::Constant))), known(3.0, Ok(0.3)));
-        assert_eq!(a.plus(known(2.0, Err(Unknown::TooFew))), known(3.0, Err(Unknown::TooFew)));
-        assert_eq!(a.times(-2.0), known(-2.0, Ok(0.6)));
     }
 }

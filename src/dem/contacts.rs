@@ -2,15 +2,15 @@
 
 use super::engine::Engine;
 use super::grains::Point;
-use super::lanes::Row;
-use super::lanes::scalar::One;
-use super::lanes::{cross, dot, minus, plus, scale};
 use super::law::{Contact, ContactLaw};
+use super::simd::Row;
+use super::simd::scalar::One;
+use super::simd::{cross, dot, minus, plus, scale};
 use super::tile::Tile;
 
 /// A contact of a grain with another one or with a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seen {
+pub struct ContactState {
     /// place of the grain
     pub first: usize,
     /// place of the other grain; none for a wall
@@ -31,7 +31,7 @@ pub struct Seen {
 
 impl<C: ContactLaw> Engine<C> {
     /// Every pair and wall contact that touches at the present positions, with the springs of the last step.
-    pub fn contacts(&self) -> impl Iterator<Item = Seen> + '_ {
+    pub fn contacts(&self) -> impl Iterator<Item = ContactState> + '_ {
         self.tiles.iter().flat_map(move |tile| {
             let pairs = (0..tile.listed()).filter_map(move |slot| self.pair(tile, slot));
             let walls = (0..tile.walls.ranges.len())
@@ -40,7 +40,7 @@ impl<C: ContactLaw> Engine<C> {
         })
     }
 
-    fn pair(&self, tile: &Tile, slot: usize) -> Option<Seen> {
+    fn pair(&self, tile: &Tile, slot: usize) -> Option<ContactState> {
         let (i, j) = (tile.pairs[slot].i as usize, tile.pairs[slot].j as usize);
         let grains = &self.grains;
         let apart = self.domain.apart(grains.position(i), grains.position(j));
@@ -54,10 +54,10 @@ impl<C: ContactLaw> Engine<C> {
         let turn: Point = std::array::from_fn(|k| grains.spins[i].0[k] + grains.spins[j].0[k]);
         let inverse = grains.spins[i].0[3] + grains.spins[j].0[3];
         let distance = squared.sqrt();
-        Some(self.seen(i, Some(j), apart, distance, reach, velocity, turn, spring, inverse))
+        Some(self.state(i, Some(j), apart, distance, reach, velocity, turn, spring, inverse))
     }
 
-    fn wall(&self, tile: &Tile, w: usize, at: usize) -> Option<Seen> {
+    fn wall(&self, tile: &Tile, w: usize, at: usize) -> Option<ContactState> {
         let wall = &self.domain.walls[w];
         let i = tile.walls.grains[at] as usize;
         let grains = &self.grains;
@@ -71,16 +71,16 @@ impl<C: ContactLaw> Engine<C> {
         let turn: Point = std::array::from_fn(|k| grains.spins[i].0[k]);
         let Row([x, y, z, _]) = tile.walls.springs[at];
         let spring = if wall.rough { Row([-x, -y, -z, 0.0]) } else { Row::default() };
-        let mut seen = self.seen(i, None, apart, distance, radius, velocity, turn, spring, grains.spins[i].0[3]);
+        let mut contact = self.state(i, None, apart, distance, radius, velocity, turn, spring, grains.spins[i].0[3]);
         if !wall.rough {
-            let along: f64 = (0..3).map(|k| seen.force[k] * seen.normal[k]).sum();
-            seen.force = seen.normal.map(|n| along * n);
+            let along: f64 = (0..3).map(|k| contact.force[k] * contact.normal[k]).sum();
+            contact.force = contact.normal.map(|n| along * n);
         }
-        Some(seen)
+        Some(contact)
     }
 
     #[allow(clippy::too_many_arguments, reason = "one contact has as many numbers")]
-    fn seen(
+    fn state(
         &self,
         first: usize,
         second: Option<usize>,
@@ -91,7 +91,7 @@ impl<C: ContactLaw> Engine<C> {
         turn: Point,
         Row([sx, sy, sz, _]): Row,
         inverse_mass: f64,
-    ) -> Seen {
+    ) -> ContactState {
         let unit = if distance == 0.0 { [0.0, 0.0, 1.0] } else { apart.map(|x| x / distance.abs()) };
         let normal = unit.map(One);
         let lever = One(if self.law.full_lever() { 1.0 } else { distance / reach });
@@ -111,7 +111,7 @@ impl<C: ContactLaw> Engine<C> {
         let force = plus(scale(response.normal, normal), response.tangential).map(|x| x.0);
         let (k_n, k_s) = self.law.stiffness();
         let energy = 0.5 * (k_n * overlap * overlap + k_s * dot(response.spring, response.spring).0);
-        Seen { first, second, normal: unit, distance, force, overlap, ratio: overlap / reach, energy }
+        ContactState { first, second, normal: unit, distance, force, overlap, ratio: overlap / reach, energy }
     }
 
     /// Energy of all springs at the present positions \[J].

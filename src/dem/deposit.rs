@@ -151,13 +151,13 @@ fn settle(
         }
         // At the beginning the grains are at rest, too: then none touches.
         let found = engine.found();
-        let held = 2 * (found.contacts + found.wall_contacts) > mobile;
-        if held && engine.grains().kinetic_energy() < rest {
+        let supported = 2 * (found.contacts + found.wall_contacts) > mobile;
+        if supported && engine.grains().kinetic_energy() < rest {
             break;
         }
         let fraction = engine.steps() as f64 / most as f64;
-        let said = pace("falling", engine.steps() - begun, clock, most.saturating_sub(engine.steps()));
-        let stop = context.watch.see(&Snapshot { stage: &said, fraction, quantity: None }).is_break();
+        let text = progress_text("falling", engine.steps() - begun, clock, most.saturating_sub(engine.steps()));
+        let stop = context.watch.see(&Snapshot { stage: &text, fraction, quantity: None }).is_break();
         let mut content = || {
             let mut to = Writer::default();
             to.whole(stage.number());
@@ -174,7 +174,7 @@ fn settle(
 
 /// What a run does, how fast, and how long it will take at most.
 #[must_use]
-pub fn pace(what: &str, made: u64, since: Instant, left: u64) -> String {
+pub fn progress_text(what: &str, made: u64, since: Instant, left: u64) -> String {
     let rate = made as f64 / since.elapsed().as_secs_f64().max(1e-9);
     let left = match left as f64 / rate.max(1e-9) {
         seconds if seconds < 120.0 => format!("{seconds:.0} s"),

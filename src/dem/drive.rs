@@ -3,11 +3,11 @@
 //!
 //! ```text
 //!  deposit (deposit.rs) ─► Flow::begin ─► advance, advance, ... ─► Flow::end ─► Flow::outcome
-//!       │                                    │ frames, film, progress
+//!       │                                    │ frames, animation, progress
 //!       └────────────── checkpoint ──────────┘
 //! ```
 //!
-//! Checkpoint: the stage, the engine, what the flow saves of itself, the film.
+//! Checkpoint: the stage, the engine, what the flow saves of itself, the animation.
 
 use std::fmt::Debug;
 use std::ops::ControlFlow;
@@ -15,21 +15,21 @@ use std::time::Instant;
 
 use sha2::{Digest, Sha256};
 
+use super::animation::Recorder;
 use super::checkpoint::{Reader, Writer};
 use super::deposit::{Deposit, Stage, deposit};
 use super::engine::Engine;
 use super::error::RunError;
-use super::film::Film;
 use super::grains::Grain;
 use super::keep::law;
 use super::law::LinearSpring;
 use super::outcome::nothing;
-use super::picture;
 use super::setup::GrainBed;
+use super::view;
 use crate::result::{CheckpointError, Context, Failure, Outcome, Quantity, Snapshot, SolveError, Status};
 
 /// A flow of grains, as its problem states it.
-pub trait Scene: Debug {
+pub trait GrainFlow: Debug {
     /// its bed
     fn bed(&self) -> &GrainBed;
 
@@ -41,7 +41,7 @@ pub trait Scene: Debug {
 
 /// How far a run is, for those who watch it.
 pub struct Progress {
-    /// in words, with the pace
+    /// in words, with the speed of the run
     pub stage: String,
     /// the quantity of interest so far
     pub quantity: Option<(&'static Quantity, f64)>,
@@ -50,7 +50,7 @@ pub struct Progress {
 /// A flow that is followed.
 pub trait Flow<'a>: Sized {
     /// its problem
-    type Scene: Scene;
+    type Problem: GrainFlow;
     /// Advances between two looks at the watch and the checkpoint.
     const BETWEEN: u64;
 
@@ -58,14 +58,14 @@ pub trait Flow<'a>: Sized {
     ///
     /// # Errors
     /// A step or a drive that the grains cannot follow.
-    fn begin(scene: &'a Self::Scene, engine: Engine<LinearSpring>) -> Result<Self, SolveError>;
+    fn begin(problem: &'a Self::Problem, engine: Engine<LinearSpring>) -> Result<Self, SolveError>;
 
     /// Reads what [`Self::save`] wrote, but for the engine.
     ///
     /// # Errors
     /// [`CheckpointError`] if what it says cannot be.
     fn restore(
-        scene: &'a Self::Scene,
+        problem: &'a Self::Problem,
         engine: Engine<LinearSpring>,
         from: &mut Reader<'_>,
     ) -> Result<Self, CheckpointError>;
@@ -74,7 +74,7 @@ pub trait Flow<'a>: Sized {
     fn save(&self, to: &mut Writer);
 
     /// its problem
-    fn scene(&self) -> &'a Self::Scene;
+    fn problem(&self) -> &'a Self::Problem;
     /// its grains
     fn engine(&self) -> &Engine<LinearSpring>;
     /// advances in all, and made so far
@@ -117,11 +117,11 @@ pub trait Flow<'a>: Sized {
     fn outcome(&mut self, status: Status) -> Result<Outcome, SolveError>;
 }
 
-/// A flow with its film.
+/// A flow with the recorder of its animation.
 pub struct Run<F> {
     /// the flow
     pub flow: F,
-    film: Film,
+    recorder: Recorder,
 }
 
 /// A run that was interrupted.
@@ -133,25 +133,25 @@ pub enum HalfWay<F> {
 }
 
 /// Name of a problem for its checkpoints.
-fn name(scene: &impl Scene) -> [u8; 32] {
-    Sha256::digest(format!("{scene:?}").as_bytes()).into()
+fn name(problem: &impl GrainFlow) -> [u8; 32] {
+    Sha256::digest(format!("{problem:?}").as_bytes()).into()
 }
 
-/// Whether `bytes` are a checkpoint of `scene`, whole and sound as far as its frame.
+/// Whether `bytes` are a checkpoint of `problem`, whole and sound as far as its frame.
 ///
 /// # Errors
 /// Why not.
-pub fn accepts(scene: &impl Scene, bytes: &[u8]) -> Result<(), CheckpointError> {
-    Reader::open(bytes, &name(scene)).map(drop)
+pub fn accepts(problem: &impl GrainFlow, bytes: &[u8]) -> Result<(), CheckpointError> {
+    Reader::open(bytes, &name(problem)).map(drop)
 }
 
-/// Lets the bed of `scene` fall, follows the flow over it and averages.
+/// Lets the bed of `problem` fall, follows the flow over it and averages.
 ///
 /// # Errors
 /// [`Failure`] with the grain or the cell that cannot go on, and the averages so far.
-pub fn run<'a, F: Flow<'a> + 'a>(scene: &'a F::Scene, context: &mut Context<'_>) -> Result<Outcome, Failure> {
+pub fn run<'a, F: Flow<'a> + 'a>(problem: &'a F::Problem, context: &mut Context<'_>) -> Result<Outcome, Failure> {
     let half_way = match context.resumed() {
-        Some(bytes) => Some(resume::<F>(scene, &bytes, context.threads).map_err(RunError::Checkpoint)?),
+        Some(bytes) => Some(resume::<F>(problem, &bytes, context.threads).map_err(RunError::Checkpoint)?),
         None => None,
     };
     let falling = match half_way {
@@ -159,33 +159,33 @@ pub fn run<'a, F: Flow<'a> + 'a>(scene: &'a F::Scene, context: &mut Context<'_>)
         Some(HalfWay::Falling(stage, engine)) => Some((stage, *engine)),
         None => None,
     };
-    let fixed = scene.fixed();
-    let what = Deposit { bed: scene.bed(), fixed: fixed.as_deref(), name: &name(scene) };
+    let fixed = problem.fixed();
+    let what = Deposit { bed: problem.bed(), fixed: fixed.as_deref(), name: &name(problem) };
     match deposit(what, falling, context)? {
-        ControlFlow::Continue(engine) => Run::<F>::begin(scene, engine)?.finish(context),
+        ControlFlow::Continue(engine) => Run::<F>::begin(problem, engine)?.finish(context),
         ControlFlow::Break(()) => Ok(nothing(Status::Stopped)),
     }
 }
 
-/// The run of `scene` that stopped at a checkpoint.
+/// The run of `problem` that stopped at a checkpoint.
 ///
 /// # Errors
 /// [`CheckpointError`]: it is of another problem, another version, or damaged.
 pub fn resume<'a, F: Flow<'a> + 'a>(
-    scene: &'a F::Scene,
+    problem: &'a F::Problem,
     bytes: &[u8],
     threads: usize,
 ) -> Result<HalfWay<F>, CheckpointError> {
-    let mut from = Reader::open(bytes, &name(scene))?;
+    let mut from = Reader::open(bytes, &name(problem))?;
     let stage = Stage::read(&mut from)?;
-    let contact = law(&scene.bed().contact).map_err(|_| CheckpointError::OtherCase)?;
-    let engine = Engine::restore(&mut from, stage.domain(scene.bed()), contact, threads)?;
+    let contact = law(&problem.bed().contact).map_err(|_| CheckpointError::OtherCase)?;
+    let engine = Engine::restore(&mut from, stage.domain(problem.bed()), contact, threads)?;
     let half_way = match stage {
         Stage::Below | Stage::Falling => HalfWay::Falling(stage, Box::new(engine)),
         Stage::Flowing => {
-            let flow = F::restore(scene, engine, &mut from)?;
-            let film = Film::restore(&mut from, flow.engine().grains().len())?;
-            HalfWay::Flowing(Box::new(Run { flow, film }))
+            let flow = F::restore(problem, engine, &mut from)?;
+            let recorder = Recorder::restore(&mut from, flow.engine().grains().len())?;
+            HalfWay::Flowing(Box::new(Run { flow, recorder }))
         }
     };
     from.close()?;
@@ -197,10 +197,10 @@ impl<'a, F: Flow<'a> + 'a> Run<F> {
     ///
     /// # Errors
     /// As [`Flow::begin`].
-    pub fn begin(scene: &'a F::Scene, engine: Engine<LinearSpring>) -> Result<Self, SolveError> {
-        let flow = F::begin(scene, engine)?;
-        let film = Film::new(scene.bed(), flow.engine().grains(), flow.period());
-        Ok(Self { flow, film })
+    pub fn begin(problem: &'a F::Problem, engine: Engine<LinearSpring>) -> Result<Self, SolveError> {
+        let flow = F::begin(problem, engine)?;
+        let recorder = Recorder::new(problem.bed(), flow.engine().grains(), flow.period());
+        Ok(Self { flow, recorder })
     }
 
     /// Its state.
@@ -209,8 +209,8 @@ impl<'a, F: Flow<'a> + 'a> Run<F> {
         to.whole(Stage::Flowing.number());
         self.flow.engine().save(&mut to);
         self.flow.save(&mut to);
-        self.film.save(&mut to);
-        to.seal(&name(self.flow.scene()))
+        self.recorder.save(&mut to);
+        to.seal(&name(self.flow.problem()))
     }
 
     fn finish(mut self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
@@ -222,8 +222,8 @@ impl<'a, F: Flow<'a> + 'a> Run<F> {
             }
         };
         let mut outcome = self.flow.outcome(status)?;
-        outcome.grains = Some(picture::side_view(self.flow.engine().grains()));
-        outcome.animation = self.film.animation();
+        outcome.grains = Some(view::side_view(self.flow.engine().grains()));
+        outcome.animation = self.recorder.animation();
         Ok(outcome)
     }
 
@@ -234,7 +234,7 @@ impl<'a, F: Flow<'a> + 'a> Run<F> {
     pub fn follow(&mut self, context: &mut Context<'_>) -> Result<Status, SolveError> {
         let (all, begun) = self.flow.advances();
         let clock = Instant::now();
-        let frames = u64::from(self.flow.scene().bed().discrete.frames);
+        let frames = u64::from(self.flow.problem().bed().discrete.frames);
         let frame = (all / frames.max(1)).max(1);
         if all == 0 {
             self.flow.first();
@@ -247,11 +247,11 @@ impl<'a, F: Flow<'a> + 'a> Run<F> {
             self.flow.advance()?;
             let made = made + 1;
             let (grains, time) = (self.flow.engine().grains(), made as f64 * self.flow.period());
-            if self.film.is_due(made) {
-                self.film.see(grains, time);
+            if self.recorder.is_due(made) {
+                self.recorder.record(grains, time);
             }
             if frames > 0 && made.is_multiple_of(frame) {
-                let taken = context.frame(made / frame, &mut || picture::vtp(grains, time));
+                let taken = context.frame(made / frame, &mut || view::vtp(grains, time));
                 taken.map_err(RunError::File)?;
             }
             if made.is_multiple_of(F::BETWEEN) || made == all {

@@ -5,13 +5,13 @@ use super::body::Body;
 use super::cells::Cells;
 use super::domain::Domain;
 use super::error::GrainError;
-use super::forces::{self, Part, Scene, Touching};
+use super::forces::{self, ContactStep, Part, Touching};
 use super::grains::{Grain, Grains, Point};
 use super::integrate::{self, Lengths, Mover, Rows};
-use super::lanes::{Backend, Load, Row};
 use super::law::ContactLaw;
 use super::ledger::Ledger;
 use super::neighbours::{self, Before, Surroundings};
+use super::simd::{Backend, Load, Row};
 use super::tile::{Moved, Tile, cut};
 use crate::runtime::pool::{Parts, Pool};
 
@@ -67,7 +67,7 @@ pub struct Engine<C> {
 }
 
 /// Most grains: indices are 32-bit words.
-const MOST: usize = 1 << 30;
+const MAX_GRAINS: usize = 1 << 30;
 
 impl<C: ContactLaw> Engine<C> {
     /// Grains at the beginning, with no contact made yet.
@@ -81,8 +81,8 @@ impl<C: ContactLaw> Engine<C> {
         settings: Settings,
         threads: usize,
     ) -> Result<Self, GrainError> {
-        if grains.is_empty() || grains.len() > MOST {
-            return Err(GrainError::Count { count: grains.len(), limit: MOST });
+        if grains.is_empty() || grains.len() > MAX_GRAINS {
+            return Err(GrainError::Count { count: grains.len(), limit: MAX_GRAINS });
         }
         let mut engine = Self::bare(Grains::new(grains), domain, law, settings, threads);
         let least = 2.0 * (2.0 * engine.grains.largest_radius() + settings.skin);
@@ -189,7 +189,7 @@ impl<C: ContactLaw> Engine<C> {
     /// Computes what acts on every grain.
     pub(super) fn forces(&mut self, dt: f64) {
         let Self { law, domain, grains, tiles, loads, backend, pool, bounds, scratch, .. } = self;
-        let scene = Scene { law, domain, grains, dt };
+        let step = ContactStep { law, domain, grains, dt };
         let (tiles, loads, scratch) = (Parts::new(tiles), Parts::new(loads), Parts::new(scratch));
         pool.each(bounds, |thread, t| {
             // SAFETY: each tile with its rows, and each thread, is a part of its own.
@@ -197,7 +197,7 @@ impl<C: ContactLaw> Engine<C> {
             let tile = &mut tile[0];
             // SAFETY: as above.
             let loads = unsafe { loads.part(tile.loads.clone()) };
-            forces::compute(*backend, scene, Part { tile, loads }, &mut scratch[0]);
+            forces::compute(*backend, step, Part { tile, loads }, &mut scratch[0]);
         });
     }
 
@@ -266,8 +266,8 @@ impl<C: ContactLaw> Engine<C> {
         pool.each(&even, |_, t| {
             // SAFETY: each tile is a part of its own.
             let tile = &mut unsafe { parts.part(t..t + 1) }[0];
-            let scene = Surroundings { grains, cells, domain, skin: settings.skin, before };
-            neighbours::list(*backend, tile, scene);
+            let around = Surroundings { grains, cells, domain, skin: settings.skin, before };
+            neighbours::list(*backend, tile, around);
             let sound = tile.is_sound(grains.len());
             debug_assert!(sound, "a list that was just made is sound");
         });
@@ -316,14 +316,14 @@ impl<C: ContactLaw> Engine<C> {
         self.settings.gravity = gravity;
     }
 
-    /// Holds the grains whose centres are below `level` \[m], and lets the others go, but for the first `fixed` of the scene. What held
-    /// grains had of kinetic energy and momentum goes to the ground; springs between two of them are forgotten.
-    /// Whether any was held or let go.
-    pub fn hold_below(&mut self, level: f64, fixed: usize) -> bool {
+    /// Freezes the grains whose centres are below `level` \[m] and releases the others, but for the first `fixed` of the scene. The
+    /// kinetic energy and momentum of grains that freeze go to the ground; springs between two of them are dropped.
+    /// Whether any was frozen or released.
+    pub fn freeze_below(&mut self, level: f64, fixed: usize) -> bool {
         let mut changed = false;
         for i in (0..self.grains.len()).filter(|&i| self.grains.ids[i] as usize >= fixed) {
-            let (below, held) = (self.grains.position(i)[2] < level, self.grains.is_fixed(i));
-            if below == held {
+            let (below, frozen) = (self.grains.position(i)[2] < level, self.grains.is_fixed(i));
+            if below == frozen {
                 continue;
             }
             changed = true;
@@ -345,7 +345,7 @@ impl<C: ContactLaw> Engine<C> {
         changed
     }
 
-    /// The account of energies and momentum begins again now.
+    /// Restarts the balances of energy and momentum.
     pub fn begin_ledger(&mut self) {
         self.ledger.begin(self.grains.kinetic_energy(), self.grains.momentum());
     }

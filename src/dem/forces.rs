@@ -3,11 +3,11 @@
 
 use super::domain::Domain;
 use super::grains::Grains;
-use super::lanes::scalar::One;
-use super::lanes::{Backend, Lanes, Load, Pair, cross, dot, minus, plus, scale};
-#[cfg(target_arch = "x86_64")]
-use super::lanes::{avx2::Four, avx512::Eight};
 use super::law::{Contact, ContactLaw};
+use super::simd::scalar::One;
+use super::simd::{Backend, Load, Pair, Simd, cross, dot, minus, plus, scale};
+#[cfg(target_arch = "x86_64")]
+use super::simd::{avx2::Four, avx512::Eight};
 use super::tile::{BLOCK, Found, GROUP, Tile};
 use super::walls;
 
@@ -51,9 +51,9 @@ impl Touching {
     }
 }
 
-/// What a step of the contacts needs to know.
+/// Inputs of a step of the contacts.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene<'a, C> {
+pub struct ContactStep<'a, C> {
     /// the law of contact
     pub law: &'a C,
     /// periods and walls
@@ -74,43 +74,48 @@ pub struct Part<'a> {
 }
 
 /// Computes what acts on the grains of `tile` and behind it.
-pub fn compute<C: ContactLaw>(backend: Backend, scene: Scene<'_, C>, tile: Part<'_>, scratch: &mut Touching) {
+pub fn compute<C: ContactLaw>(backend: Backend, step: ContactStep<'_, C>, tile: Part<'_>, scratch: &mut Touching) {
     match backend {
-        Backend::Scalar => tile_forces::<C, One>((), scene, tile, scratch),
+        Backend::Scalar => tile_forces::<C, One>((), step, tile, scratch),
         #[cfg(target_arch = "x86_64")]
         // SAFETY: the proof says that the machine has the instructions.
-        Backend::Avx2(proof) => unsafe { on_avx2(proof, scene, tile, scratch) },
+        Backend::Avx2(proof) => unsafe { on_avx2(proof, step, tile, scratch) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Backend::Avx512(proof) => unsafe { on_avx512(proof, scene, tile, scratch) },
+        Backend::Avx512(proof) => unsafe { on_avx512(proof, step, tile, scratch) },
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn on_avx2<C: ContactLaw>(proof: <Four as Lanes>::Proof, scene: Scene<'_, C>, tile: Part<'_>, scratch: &mut Touching) {
-    tile_forces::<C, Four>(proof, scene, tile, scratch);
+fn on_avx2<C: ContactLaw>(
+    proof: <Four as Simd>::Proof,
+    step: ContactStep<'_, C>,
+    tile: Part<'_>,
+    scratch: &mut Touching,
+) {
+    tile_forces::<C, Four>(proof, step, tile, scratch);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
 fn on_avx512<C: ContactLaw>(
-    proof: <Eight as Lanes>::Proof,
-    scene: Scene<'_, C>,
+    proof: <Eight as Simd>::Proof,
+    step: ContactStep<'_, C>,
     tile: Part<'_>,
     scratch: &mut Touching,
 ) {
-    tile_forces::<C, Eight>(proof, scene, tile, scratch);
+    tile_forces::<C, Eight>(proof, step, tile, scratch);
 }
 
 #[inline(always)]
-fn tile_forces<C: ContactLaw, L: Lanes>(
+fn tile_forces<C: ContactLaw, L: Simd>(
     proof: L::Proof,
-    scene: Scene<'_, C>,
+    step: ContactStep<'_, C>,
     Part { tile, loads }: Part<'_>,
     touching: &mut Touching,
 ) {
-    let Scene { law, domain, grains, dt } = scene;
+    let ContactStep { law, domain, grains, dt } = step;
     tile.check(grains);
     assert!(loads.len() == tile.reach, "every grain that the tile touches has a row of loads");
     tile.found = Found::default();
@@ -122,12 +127,12 @@ fn tile_forces<C: ContactLaw, L: Lanes>(
         tile.found.contacts += count;
         from = to;
     }
-    walls::compute::<C, L>(proof, scene, tile, loads, touching);
+    walls::compute::<C, L>(proof, step, tile, loads, touching);
 }
 
 /// Finds the pairs of the slots `from..to` that touch; springs of new contacts begin at zero.
 #[inline(always)]
-fn find<L: Lanes>(
+fn find<L: Simd>(
     proof: L::Proof,
     domain: &Domain,
     grains: &Grains,
@@ -139,7 +144,7 @@ fn find<L: Lanes>(
     let [length_x, length_y] = domain.lengths().map(|x| L::splat(proof, x));
     let [half_x, half_y] = domain.halves().map(|x| L::splat(proof, x));
     let zero = L::splat(proof, 0.0);
-    // Slots as words: a counter per lane.
+    // Slots as words: one counter for each SIMD lane.
     let mut slots: [u64; GROUP] = std::array::from_fn(|l| (from + l) as u64);
     let mut count = 0;
     for group in (from..to).step_by(GROUP) {
@@ -175,7 +180,7 @@ fn find<L: Lanes>(
         let before = std::mem::replace(&mut tile.touching[group / GROUP], now);
         let mut new = now & !before;
         while new != 0 {
-            tile.springs[group + new.trailing_zeros() as usize] = super::lanes::Row::default();
+            tile.springs[group + new.trailing_zeros() as usize] = super::simd::Row::default();
             new &= new - 1;
         }
     }
@@ -184,7 +189,7 @@ fn find<L: Lanes>(
 
 /// Applies the law to the first `count` pairs that touch.
 #[inline(always)]
-fn apply<C: ContactLaw, L: Lanes>(
+fn apply<C: ContactLaw, L: Simd>(
     proof: L::Proof,
     law: &C,
     grains: &Grains,

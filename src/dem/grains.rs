@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::lanes::Row;
+use super::simd::Row;
 
 /// A point or vector in space: x along the flow, y across, z normal to the bed.
 pub type Point = [f64; 3];

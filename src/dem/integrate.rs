@@ -1,14 +1,14 @@
 //! Leapfrog: velocities at half steps, positions at whole ones.
 //!
 //! v(t + h/2) = v(t - h/2) + h f(t)/m, x(t + h) = x(t) + h v(t + h/2), and R ω as v with 5/2 of the torque over R.
-//! The work of a force over the kick is f · (v- + v+) h/2 exactly, so the kinetic energy can be accounted for to round-off.
+//! The work of a force over the kick is f · (v- + v+) h/2 exactly, so the kinetic energy balances to round-off.
 #![allow(unsafe_code, reason = "instructions chosen at run time")]
 
-use super::body::{Body, Seen};
+use super::body::{Body, GrainState};
 use super::grains::Point;
 #[cfg(target_arch = "x86_64")]
-use super::lanes::avx2::Four;
-use super::lanes::{Backend, Load, Quad, Row};
+use super::simd::avx2::Four;
+use super::simd::{Backend, Load, Quad, Row};
 use super::tile::Moved;
 
 /// Lengths of one step \[s].
@@ -121,8 +121,9 @@ fn moved<B: Body, Q: Quad>(proof: Q::Proof, mover: Mover<'_, B>, rows: Rows<'_>)
             *x = place.plus(old.times(step.drift)).row();
             continue;
         }
-        let seen = Seen { id, position: [x.0[0], x.0[1], x.0[2]], velocity: [v.0[0], v.0[1], v.0[2]], radius: x.0[3] };
-        let [bx, by, bz] = body.force(&seen);
+        let state =
+            GrainState { id, position: [x.0[0], x.0[1], x.0[2]], velocity: [v.0[0], v.0[1], v.0[2]], radius: x.0[3] };
+        let [bx, by, bz] = body.force(&state);
         let (outer, falling) = (Q::of(proof, &Row([bx, by, bz, 0.0])), gravity.times(mass));
         let both = falling.plus(outer);
         let new = old.plus(force.plus(both).times(inverse).times(step.kick));

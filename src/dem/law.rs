@@ -1,7 +1,7 @@
 //! The contact law: what two grains that touch do to each other. The pair loop knows only the trait.
 
-use super::lanes::scalar::One;
-use super::lanes::{Lanes, Vector, dot, minus, plus, scale};
+use super::simd::scalar::One;
+use super::simd::{Simd, Vector, dot, minus, plus, scale};
 use crate::closures::contact::Tension;
 use crate::closures::contact::restitution::{self, RestitutionError};
 use crate::numerics::root;
@@ -37,7 +37,7 @@ pub struct Response<L> {
 /// A law of contact, written once for any number of contacts at a time.
 pub trait ContactLaw: Copy + Send + Sync {
     /// Force and new spring after a step of `dt` \[s]; with `dt` = 0 the force as it stands.
-    fn respond<L: Lanes>(&self, proof: L::Proof, contact: Contact<L>, dt: f64) -> Response<L>;
+    fn respond<L: Simd>(&self, proof: L::Proof, contact: Contact<L>, dt: f64) -> Response<L>;
     /// Normal and tangential stiffness [N/m].
     fn stiffness(&self) -> (f64, f64);
     /// Damping ratio c/(2 sqrt(m k_n)) of the normal contact.
@@ -124,7 +124,7 @@ impl LinearSpring {
 impl LinearSpring {
     /// Damping coefficient of a contact [kg/s].
     #[inline(always)]
-    fn damping<L: Lanes>(&self, proof: L::Proof, inverse_mass: L) -> L {
+    fn damping<L: Simd>(&self, proof: L::Proof, inverse_mass: L) -> L {
         let all = |x| L::splat(proof, x);
         let Discrete { dt, curve: [a, b], .. } = self.discrete;
         let x = all(dt) * (all(self.k_n) * inverse_mass).sqrt();
@@ -179,7 +179,7 @@ impl LinearSpring {
 
 impl ContactLaw for LinearSpring {
     #[inline(always)]
-    fn respond<L: Lanes>(&self, proof: L::Proof, contact: Contact<L>, dt: f64) -> Response<L> {
+    fn respond<L: Simd>(&self, proof: L::Proof, contact: Contact<L>, dt: f64) -> Response<L> {
         let all = |x| L::splat(proof, x);
         let Contact { overlap, normal, parting, sliding, spring, inverse_mass } = contact;
         let zero = all(0.0);
@@ -204,7 +204,7 @@ impl ContactLaw for LinearSpring {
         };
         let push = all(self.k_n) * overlap - share * damping * parting;
         let pushing = L::select(push.above(zero), push, zero);
-        let (f_n, held) = match self.tension {
+        let (f_n, pressing) = match self.tension {
             Tension::Cut => (pushing, pushing),
             Tension::Kept if self.lammps.is_some() => (push, L::select(push.above(zero), push, -push)),
             Tension::Kept => (push, pushing),
@@ -213,7 +213,7 @@ impl ContactLaw for LinearSpring {
         let longer = plus(spring, scale(all(dt), sliding));
         let flat = minus(longer, scale(dot(longer, normal), normal));
         let pull = all(self.k_s) * dot(flat, flat).sqrt();
-        let cap = all(self.mu) * held;
+        let cap = all(self.mu) * pressing;
         let slips = pull.above(cap);
         // Where nothing slips the quotient is not used, and 0/0 stays away from the result.
         let kept = L::select(slips, cap / pull, all(1.0));

@@ -1,4 +1,4 @@
-//! Energy and momentum, accounted for step by step.
+//! Balances of energy and momentum, step by step.
 
 use super::grains::Point;
 use super::tile::Moved;

@@ -1,12 +1,13 @@
 //! Grains one by one: translation and rotation of spheres with contacts that remember.
 //!
 //! ```text
-//!  grains ─► cells ─► neighbours (tiles) ─► forces (lanes, law) ─► integrate ─► ledger
+//!  grains ─► cells ─► neighbours (tiles) ─► forces (simd, law) ─► integrate ─► ledger
 //!                                             walls                            contacts ─► stresses, limits
 //! ```
 //!
 //! One binary gives the same bits for any number of threads and any width of vectors; see docs/grains.md.
 
+pub(crate) mod animation;
 pub(crate) mod average;
 pub mod body;
 pub(crate) mod budget;
@@ -19,23 +20,23 @@ pub(crate) mod domain;
 pub(crate) mod drive;
 pub(crate) mod engine;
 pub(crate) mod error;
-pub(crate) mod film;
 pub(crate) mod forces;
 pub(crate) mod grains;
 pub(crate) mod guards;
 pub(crate) mod integrate;
 pub(crate) mod keep;
-pub(crate) mod lanes;
+
 pub mod law;
 pub(crate) mod ledger;
 pub(crate) mod neighbours;
 pub(crate) mod outcome;
 pub(crate) mod pack;
-pub(crate) mod picture;
 pub(crate) mod readings;
 pub(crate) mod setup;
+pub(crate) mod simd;
 pub(crate) mod stability;
 pub(crate) mod tile;
+pub(crate) mod view;
 pub(crate) mod walls;
 
 pub use domain::{Domain, Wall};

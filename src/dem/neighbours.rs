@@ -4,10 +4,10 @@
 use super::cells::Cells;
 use super::domain::Domain;
 use super::grains::Grains;
-use super::lanes::scalar::One;
-use super::lanes::{Backend, Lanes, Pair, Row};
+use super::simd::scalar::One;
+use super::simd::{Backend, Pair, Row, Simd};
 #[cfg(target_arch = "x86_64")]
-use super::lanes::{avx2::Four, avx512::Eight};
+use super::simd::{avx2::Four, avx512::Eight};
 use super::tile::{GROUP, Tile, WallList};
 
 /// What a new list is made from.
@@ -81,19 +81,19 @@ pub fn list(backend: Backend, tile: &mut Tile, of: Surroundings<'_>) {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn on_avx2(proof: <Four as Lanes>::Proof, tile: &mut Tile, of: Surroundings<'_>) {
+fn on_avx2(proof: <Four as Simd>::Proof, tile: &mut Tile, of: Surroundings<'_>) {
     tile.list::<Four>(proof, of);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512dq,avx512vl")]
-fn on_avx512(proof: <Eight as Lanes>::Proof, tile: &mut Tile, of: Surroundings<'_>) {
+fn on_avx512(proof: <Eight as Simd>::Proof, tile: &mut Tile, of: Surroundings<'_>) {
     tile.list::<Eight>(proof, of);
 }
 
 impl Tile {
     #[inline(always)]
-    fn list<L: Lanes>(&mut self, proof: L::Proof, of: Surroundings<'_>) {
+    fn list<L: Simd>(&mut self, proof: L::Proof, of: Surroundings<'_>) {
         let Surroundings { grains, cells, domain, skin, before } = of;
         self.pairs.clear();
         self.springs.clear();

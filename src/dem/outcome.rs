@@ -1,7 +1,7 @@
-//! What a bed of grains reports: profile, means with their errors, the account of energies.
+//! What a bed of grains reports: profile, means with their errors, the energy balance.
 
-use super::average::{Averaged, Averages, Mean};
-use super::certainty::{Known, Unknown, of_series, resolved};
+use super::average::{Averaged, Averages};
+use super::certainty::{of_series, resolved};
 use super::checkpoint::Saved;
 use super::engine::Engine;
 use super::law::LinearSpring;
@@ -10,44 +10,77 @@ use crate::closures::contact::linear_spring::RIGID_RANGE;
 use crate::dem::GrainBed;
 use crate::result::CheckpointError;
 use crate::result::{
-    Balance, Outcome, Profile, Quantity, Results, Series, SolveError, Status, Validity, quantity as q,
+    Balance, Estimate, Outcome, Profile, Quantity, Results, Series, SolveError, Status, Unknown, Validity,
+    quantity as q,
 };
 
 /// Blocks of the scalar means.
 const BLOCKS: usize = 10;
-/// Most rows of the time series.
-const ROWS: usize = 400;
+/// Most samples of the time series.
+const MAX_SAMPLES: usize = 400;
+/// Numbers of a sample.
+const WIDTH: usize = 8;
 
-/// Scalars over the samples.
+/// Scalars of one moment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Sample {
+    /// time \[s]
+    time: f64,
+    /// kinetic energy \[J]
+    kinetic_energy: f64,
+    /// transport rate [m2/s]
+    transport_rate: f64,
+    /// mean velocity of the mobile grains along the flow [m/s]
+    velocity: f64,
+    /// contacts of a mobile grain
+    coordination: f64,
+    /// normal force of fixed grains and walls over the weight of the mobile grains
+    support: f64,
+    /// tangential over normal force of fixed grains and walls
+    friction: f64,
+    /// largest overlap over the sum of the radii
+    overlap: f64,
+}
+
+impl Sample {
+    fn numbers(&self) -> [f64; WIDTH] {
+        let Self { time, kinetic_energy, transport_rate, velocity, coordination, support, friction, overlap } = *self;
+        [time, kinetic_energy, transport_rate, velocity, coordination, support, friction, overlap]
+    }
+
+    fn of(numbers: [f64; WIDTH]) -> Self {
+        let [time, kinetic_energy, transport_rate, velocity, coordination, support, friction, overlap] = numbers;
+        Self { time, kinetic_energy, transport_rate, velocity, coordination, support, friction, overlap }
+    }
+}
+
+/// Scalars over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Means {
-    /// of each sample: time, kinetic energy, transport rate, mean velocity, coordination, support, friction, overlap
-    rows: Vec<[f64; WIDTH]>,
+    samples: Vec<Sample>,
     spare: Vec<[f64; WIDTH]>,
 }
 
-const WIDTH: usize = 8;
-
 impl Saved for Means {
     fn numbers(&mut self) -> Vec<&mut f64> {
-        // As many rows as there can be: what is not used is not a number.
-        self.spare = self.rows.clone();
-        self.spare.resize(ROWS, [f64::NAN; WIDTH]);
+        // As many samples as there can be: what is not used is not a number.
+        self.spare = self.samples.iter().map(Sample::numbers).collect();
+        self.spare.resize(MAX_SAMPLES, [f64::NAN; WIDTH]);
         self.spare.iter_mut().flatten().collect()
     }
 
     fn fill(&mut self, from: &mut super::checkpoint::Reader<'_>) -> Result<(), CheckpointError> {
-        if from.whole()? != (ROWS * WIDTH) as u64 {
+        if from.whole()? != (MAX_SAMPLES * WIDTH) as u64 {
             return Err(CheckpointError::Corrupt { what: "the means" });
         }
-        self.rows.clear();
-        for _ in 0..ROWS {
-            let mut row = [0.0; WIDTH];
-            for x in &mut row {
+        self.samples.clear();
+        for _ in 0..MAX_SAMPLES {
+            let mut numbers = [0.0; WIDTH];
+            for x in &mut numbers {
                 *x = from.number()?;
             }
-            if row[0].is_finite() {
-                self.rows.push(row);
+            if numbers[0].is_finite() {
+                self.samples.push(Sample::of(numbers));
             }
         }
         Ok(())
@@ -57,7 +90,7 @@ impl Saved for Means {
 impl Means {
     /// Adds the present state.
     pub fn sample(&mut self, engine: &Engine<LinearSpring>, bed: &GrainBed) {
-        if self.rows.len() == ROWS {
+        if self.samples.len() == MAX_SAMPLES {
             return;
         }
         let grains = engine.grains();
@@ -70,53 +103,51 @@ impl Means {
             speed += grains.velocity(i)[0];
         }
         let (mut touches, mut push, mut drag, mut overlap) = (0.0, 0.0, 0.0, 0.0_f64);
-        for seen in engine.contacts() {
-            overlap = overlap.max(seen.ratio);
+        for contact in engine.contacts() {
+            overlap = overlap.max(contact.ratio);
             let mobile = |i: usize| !grains.is_fixed(i);
-            let second = seen.second.is_some_and(mobile);
-            touches += f64::from(u8::from(mobile(seen.first))) + f64::from(u8::from(second));
+            let second = contact.second.is_some_and(mobile);
+            touches += f64::from(u8::from(mobile(contact.first))) + f64::from(u8::from(second));
             // What fixed grains and walls do to the mobile ones.
-            let sign = match (mobile(seen.first), second) {
+            let sign = match (mobile(contact.first), second) {
                 (true, false) => -1.0,
                 (false, true) => 1.0,
                 _ => continue,
             };
-            push += sign * seen.force[2];
-            drag -= sign * seen.force[0];
+            push += sign * contact.force[2];
+            drag -= sign * contact.force[0];
         }
-        let kinetic = grains.kinetic_energy();
         let area = bed.size[0] * bed.size[1];
-        let time = engine.steps() as f64 * engine.settings().dt;
-        self.rows.push([
-            time,
-            kinetic,
-            rate / area,
-            speed / bed.mobile as f64,
-            touches / bed.mobile as f64,
-            push / (weight * gz.abs()),
-            if gx == 0.0 && push == 0.0 { 0.0 } else { drag / push },
+        self.samples.push(Sample {
+            time: engine.steps() as f64 * engine.settings().dt,
+            kinetic_energy: grains.kinetic_energy(),
+            transport_rate: rate / area,
+            velocity: speed / bed.mobile as f64,
+            coordination: touches / bed.mobile as f64,
+            support: push / (weight * gz.abs()),
+            friction: if gx == 0.0 && push == 0.0 { 0.0 } else { drag / push },
             overlap,
-        ]);
+        });
     }
 
     /// Mean velocity so far [m/s].
     #[must_use]
     pub fn velocity(&self) -> Option<f64> {
-        self.mean(3).map(|known| known.mean)
+        self.mean(|sample| sample.velocity).map(|estimate| estimate.mean)
     }
 
-    fn column(&self, column: usize) -> Vec<f64> {
-        self.rows.iter().map(|row| row[column]).collect()
+    fn values(&self, value: fn(&Sample) -> f64) -> Vec<f64> {
+        self.samples.iter().map(value).collect()
     }
 
-    /// Mean of a column and its standard error by blocks.
-    fn mean(&self, column: usize) -> Option<Known> {
-        of_series(&self.column(column), &[BLOCKS])
+    /// Mean of `value` and its standard error by blocks.
+    fn mean(&self, value: fn(&Sample) -> f64) -> Option<Estimate> {
+        of_series(&self.values(value), &[BLOCKS])
     }
 
     /// Whether the samples of the velocity are enough for standard errors.
     fn resolved(&self) -> Result<(), Unknown> {
-        resolved(&self.column(3))
+        resolved(&self.values(|sample| sample.velocity))
     }
 }
 
@@ -138,22 +169,23 @@ pub fn outcome(
     status: Status,
 ) -> Result<Outcome, SolveError> {
     let mut averaged = averages.profile();
-    if means.resolved().is_err() {
-        averaged = averaged.without_errors();
+    if let Err(why) = means.resolved() {
+        averaged = averaged.without_errors(why);
     }
     let mut results = Results::default();
     results.set(&q::GRAINS, bed.mobile as f64);
-    let mut mean = |quantity, column, scale: f64| match means.mean(column) {
-        Some(known) => set_mean(&mut results, quantity, known.times(scale)),
+    let mut mean = |quantity, value: fn(&Sample) -> f64, scale: f64| match means.mean(value) {
+        Some(estimate) => results.set_mean(quantity, estimate.times(scale)),
         None => results.undefined(quantity, "nothing was averaged yet"),
     };
-    mean(&q::TRANSPORT_RATE, 2, 1.0);
-    mean(&q::MEAN_VELOCITY, 3, 1.0);
-    mean(&q::COORDINATION, 4, 1.0);
-    mean(&q::WEIGHT_RATIO, 5, 1.0);
-    mean(&q::FRICTION_WALLS, 6, 1.0);
-    mean(&q::KINETIC_LEFT, 1, 1.0 / (bed.mobile as f64 * bed.mass() * bed.g * bed.d));
-    let deepest = means.rows.iter().map(|row| row[7]).fold(0.0, f64::max);
+    mean(&q::TRANSPORT_RATE, |sample| sample.transport_rate, 1.0);
+    mean(&q::MEAN_VELOCITY, |sample| sample.velocity, 1.0);
+    mean(&q::COORDINATION, |sample| sample.coordination, 1.0);
+    mean(&q::WEIGHT_RATIO, |sample| sample.support, 1.0);
+    mean(&q::FRICTION_WALLS, |sample| sample.friction, 1.0);
+    let potential = bed.mobile as f64 * bed.mass() * bed.g * bed.d;
+    mean(&q::KINETIC_LEFT, |sample| sample.kinetic_energy, 1.0 / potential);
+    let deepest = means.samples.iter().map(|sample| sample.overlap).fold(0.0, f64::max);
     results.set(&q::OVERLAP, deepest);
     let level = bed_level(&averaged);
     match level {
@@ -186,11 +218,11 @@ pub fn outcome(
     }
     let profile = profile(bed, &averaged)?;
     let mut series = None;
-    if !means.rows.is_empty() {
-        let rows = |column: usize| means.rows.iter().map(|row| Some(row[column])).collect::<Vec<_>>();
-        let mut table = Series::new((0..means.rows.len()).map(|i| i as f64).collect())?;
-        table.push(&q::TIME, rows(0))?;
-        table.push(&q::KINETIC_ENERGY, rows(1))?;
+    if !means.samples.is_empty() {
+        let column = |value: fn(&Sample) -> f64| means.values(value).into_iter().map(Some).collect::<Vec<_>>();
+        let mut table = Series::new((0..means.samples.len()).map(|i| i as f64).collect())?;
+        table.push(&q::TIME, column(|sample| sample.time))?;
+        table.push(&q::KINETIC_ENERGY, column(|sample| sample.kinetic_energy))?;
         series = Some(table);
     }
     let kinetic = engine.grains().kinetic_energy();
@@ -211,14 +243,9 @@ pub fn outcome(
     Ok(Outcome { results, balances, validity, profile, series, ..nothing(status) })
 }
 
-/// Reports a mean with its standard error, or why it has none.
-pub(crate) fn set_mean(results: &mut Results, quantity: &'static Quantity, known: Known) {
-    results.set_mean(quantity, known.mean, known.error.map_err(Unknown::reason));
-}
-
 /// Where the solid fraction falls below half of that of the bed, from above, and that of the bed.
 pub(crate) fn bed_level(averaged: &Averaged) -> Option<(f64, f64)> {
-    let phi = |s: usize| averaged.phi[s].map_or(0.0, |(phi, _)| phi);
+    let phi = |s: usize| averaged.phi[s].map_or(0.0, |phi| phi.mean);
     let slices = averaged.z.len();
     let bulk_up_to = |top: usize| {
         let (from, to) = (top / 4, (3 * top / 4).max(top / 4 + 1));
@@ -232,7 +259,7 @@ pub(crate) fn bed_level(averaged: &Averaged) -> Option<(f64, f64)> {
 
 /// What the middle of the bed tells: pressure against the weight above it, friction and inertial number.
 fn bulk(bed: &GrainBed, averaged: &Averaged, level: f64, results: &mut Results) {
-    let of = |means: &[Mean], s: usize| means[s].map_or(0.0, |(x, _)| x);
+    let of = |means: &[Option<Estimate>], s: usize| means[s].map_or(0.0, |x| x.mean);
     let slices = averaged.z.len();
     let thickness = bed.discrete.slice * bed.d;
     let inside: Vec<usize> = (0..slices).filter(|&s| (0.25..0.75).contains(&(averaged.z[s] / level))).collect();
@@ -254,7 +281,7 @@ fn bulk(bed: &GrainBed, averaged: &Averaged, level: f64, results: &mut Results) 
         &q::PRESSURE_ERROR,
         inside.iter().map(off).fold(0.0, f64::max) / above[low.min(window)].max(f64::MIN_POSITIVE),
     );
-    let mean = |means: &[Mean]| inside.iter().map(|&s| of(means, s)).sum::<f64>() / inside.len() as f64;
+    let mean = |means: &[Option<Estimate>]| inside.iter().map(|&s| of(means, s)).sum::<f64>() / inside.len() as f64;
     let (pressure, shear) = (mean(&averaged.pressure), mean(&averaged.shear));
     if bed.beta == 0.0 || pressure <= 0.0 {
         results.undefined(&q::FRICTION_BULK, "the bed is level");
@@ -270,12 +297,12 @@ pub(crate) fn profile(bed: &GrainBed, averaged: &Averaged) -> Result<Option<Prof
         return Ok(None);
     }
     let mut profile = Profile::new(averaged.z.clone())?;
-    let value = |means: &[Mean]| means.iter().map(|m| m.map(|(x, _)| x)).collect::<Vec<_>>();
-    let error = |means: &[Mean]| means.iter().map(|m| m.and_then(|(_, e)| e)).collect::<Vec<_>>();
+    let value = |means: &[Option<Estimate>]| means.iter().map(|m| m.map(|x| x.mean)).collect::<Vec<_>>();
+    let error = |means: &[Option<Estimate>]| means.iter().map(|m| m.and_then(|x| x.stderr.ok())).collect::<Vec<_>>();
     let mut push = |quantity: &'static Quantity, values| profile.push(quantity, values);
     push(&q::PHI, value(&averaged.phi))?;
     push(&q::U_PARTICLE, value(&averaged.velocity))?;
-    let flux = |(phi, u): (&Mean, &Mean)| phi.map(|(phi, _)| phi * u.map_or(0.0, |(u, _)| u));
+    let flux = |(phi, u): (&Option<Estimate>, &Option<Estimate>)| phi.map(|phi| phi.mean * u.map_or(0.0, |u| u.mean));
     push(&q::FLUX, averaged.phi.iter().zip(&averaged.velocity).map(flux).collect())?;
     push(&q::TAU_PARTICLE, value(&averaged.shear))?;
     push(&q::P_PARTICLE, value(&averaged.pressure))?;
@@ -296,12 +323,12 @@ fn rates(bed: &GrainBed, averaged: &Averaged) -> (Vec<Option<f64>>, Vec<Option<f
     let half = ((0.5 / bed.discrete.slice).round() as usize).max(1);
     let rate = |s: usize| {
         let (below, above) = (s.checked_sub(half)?, s + half);
-        let u = |s: usize| averaged.velocity.get(s).copied().flatten().map(|(u, _)| u);
+        let u = |s: usize| averaged.velocity.get(s).copied().flatten().map(|u| u.mean);
         let rate = (u(above)? - u(below)?) / (averaged.z[above] - averaged.z[below]);
         Some(rate.abs())
     };
     let number = |s: usize| {
-        let (pressure, _) = averaged.pressure[s]?;
+        let pressure = averaged.pressure[s]?.mean;
         (pressure > 0.0).then(|| rate(s).map(|rate| bed.d * rate * (bed.rho_p / pressure).sqrt()))?
     };
     ((0..averaged.z.len()).map(rate).collect(), (0..averaged.z.len()).map(number).collect())

@@ -52,15 +52,15 @@ pub fn bottom(bed: &GrainBed) -> Vec<Grain> {
 #[must_use]
 pub fn cloud(bed: &GrainBed, floor: f64) -> Vec<Grain> {
     let d = bed.d;
-    let room = if bed.side_walls { bed.size[1] - d } else { bed.size[1] };
+    let span = if bed.side_walls { bed.size[1] - d } else { bed.size[1] };
     let along = (bed.size[0] / (1.12 * d)).floor().max(1.0) as usize;
     let across = if bed.side_walls {
-        (room / (1.12 * d)).floor() as usize + 1
+        (span / (1.12 * d)).floor() as usize + 1
     } else {
-        (room / (1.12 * d)).floor().max(1.0) as usize
+        (span / (1.12 * d)).floor().max(1.0) as usize
     };
     let gaps = if bed.side_walls { (across - 1).max(1) } else { across };
-    let spacing = [bed.size[0] / along as f64, room / gaps as f64];
+    let spacing = [bed.size[0] / along as f64, span / gaps as f64];
     let mut grains = Vec::with_capacity(bed.mobile);
     for n in 0..bed.mobile {
         let mut stream = Stream::new([u64::from(bed.discrete.seed), CLOUD, n as u64]);
@@ -69,8 +69,8 @@ pub fn cloud(bed: &GrainBed, floor: f64) -> Vec<Grain> {
         let (i, j) = (n % along, n / along % across);
         let x = (i as f64 + 0.5) * spacing[0] + jitter();
         let y = if bed.side_walls {
-            let centre = if across == 1 { 0.5 * room } else { j as f64 * spacing[1] };
-            0.5 * d + (centre + jitter()).clamp(0.0, room.max(0.0))
+            let centre = if across == 1 { 0.5 * span } else { j as f64 * spacing[1] };
+            0.5 * d + (centre + jitter()).clamp(0.0, span.max(0.0))
         } else {
             (j as f64 + 0.5) * spacing[1] + jitter()
         };

@@ -97,7 +97,7 @@ pub struct Discrete {
     #[serde(default)]
     #[schemars(extend("minimum" = 0, "maximum" = 1_000_000))]
     pub seed: u32,
-    /// Pictures of the grains for ParaView, evenly spaced over the duration.
+    /// Frames of the grains for ParaView, evenly spaced over the duration.
     #[serde(default)]
     #[schemars(extend("minimum" = 0, "maximum" = 10_000))]
     pub frames: u32,

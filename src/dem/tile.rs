@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::lanes::{Pair, Row, Window};
+use super::simd::{Pair, Row, Window};
 
 /// Pairs that are looked at before the law is applied to those that touch.
 pub const BLOCK: usize = 256;

@@ -1,41 +1,41 @@
 //! Contacts with plane walls: the law of the pairs against a body of no curvature and infinite mass.
 #![allow(unsafe_code, reason = "indices are checked once per tile, and instructions chosen at run time")]
 
-use super::forces::{Scene, Touching};
-use super::lanes::{Lanes, Load, Row, cross, dot, minus, plus, scale};
+use super::forces::{ContactStep, Touching};
 use super::law::{Contact, ContactLaw};
+use super::simd::{Load, Row, Simd, cross, dot, minus, plus, scale};
 use super::tile::{BLOCK, GROUP, Tile};
 
 /// Adds what the walls do to the grains near them.
 #[inline(always)]
-pub fn compute<C: ContactLaw, L: Lanes>(
+pub fn compute<C: ContactLaw, L: Simd>(
     proof: L::Proof,
-    scene: Scene<'_, C>,
+    step: ContactStep<'_, C>,
     tile: &mut Tile,
     loads: &mut [Load],
     touching: &mut Touching,
 ) {
-    for wall in 0..scene.domain.walls.len() {
+    for wall in 0..step.domain.walls.len() {
         let range = tile.walls.ranges[wall].clone();
         for from in range.clone().step_by(BLOCK) {
             let to = (from + BLOCK).min(range.end);
-            let count = find::<C, L>(proof, scene, tile, wall, from..to, touching);
-            apply::<C, L>(proof, scene, tile, wall, count, loads, touching);
+            let count = find::<C, L>(proof, step, tile, wall, from..to, touching);
+            apply::<C, L>(proof, step, tile, wall, count, loads, touching);
         }
     }
 }
 
 /// Packs the entries that touch: grain, place in the list, distance and radius; the springs of contacts that ended are zeroed.
 #[inline(always)]
-fn find<C, L: Lanes>(
+fn find<C, L: Simd>(
     proof: L::Proof,
-    scene: Scene<'_, C>,
+    step: ContactStep<'_, C>,
     tile: &mut Tile,
     wall: usize,
     range: std::ops::Range<usize>,
     touching: &mut Touching,
 ) -> usize {
-    let wall = &scene.domain.walls[wall];
+    let wall = &step.domain.walls[wall];
     let normal = wall.normal.map(|x| L::splat(proof, x));
     let offset = L::splat(proof, wall.offset);
     let mut count = 0;
@@ -46,7 +46,7 @@ fn find<C, L: Lanes>(
             // SAFETY: `Tile::check` holds the padded list inside the rows; the buffers take a vector behind `BLOCK` entries.
             unsafe {
                 let grains = tile.walls.grains.as_ptr().add(at);
-                let [x, y, z, radius] = L::columns(proof, &scene.grains.positions, grains);
+                let [x, y, z, radius] = L::columns(proof, &step.grains.positions, grains);
                 let distance = dot([x, y, z], normal) - offset;
                 let mask = radius.above(distance);
                 let bits = L::bits(mask);
@@ -70,9 +70,9 @@ fn find<C, L: Lanes>(
 
 /// Applies the law to the first `count` entries of `touching`.
 #[inline(always)]
-fn apply<C: ContactLaw, L: Lanes>(
+fn apply<C: ContactLaw, L: Simd>(
     proof: L::Proof,
-    scene: Scene<'_, C>,
+    step: ContactStep<'_, C>,
     tile: &mut Tile,
     wall: usize,
     count: usize,
@@ -80,7 +80,7 @@ fn apply<C: ContactLaw, L: Lanes>(
     touching: &mut Touching,
 ) {
     touching.fill(count, L::WIDTH);
-    let Scene { law, domain, grains, dt } = scene;
+    let ContactStep { law, domain, grains, dt } = step;
     let wall = &domain.walls[wall];
     let all = |x| L::splat(proof, x);
     let (zero, one) = (all(0.0), all(1.0));

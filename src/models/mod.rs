@@ -41,5 +41,5 @@ models! {
     shear_cell: OnMesh<shear_cell::ShearCell>;
     grains: GrainBed;
     coupled: coupled::Coupled;
-    also: grains::Impact, grains::Trial;
+    also: grains::Impact, grains::Verification;
 }

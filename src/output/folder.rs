@@ -80,7 +80,7 @@ impl Folder {
         })
     }
 
-    /// Prepares the resolved path `target`, whose content `may_replace` judges where there is any.
+    /// Prepares the resolved path `target`, whose content `may_replace` assesses where there is any.
     ///
     /// # Errors
     /// As [`Folder::prepare`].
@@ -143,7 +143,7 @@ impl Folder {
                 (folder.place, folder.made) = (place, true);
             }
         }
-        // From here on there is something to take back, and never before: what was judged above is not ours to touch.
+        // From here on there is something to take back, and never before: what was checked above is not ours to touch.
         folder.finished = false;
         // Whether files can be made here is known before anything is computed.
         let probe = beside(&folder.place("probe"), "part");

@@ -7,18 +7,18 @@ use std::path::Path;
 use super::error::OutputError;
 use super::folder::{Folder, write_whole};
 use super::ours::entries;
-use crate::result::Motion;
+use crate::result::Animation;
 
 /// State from which a run of grains goes on.
 pub const CHECKPOINT: &str = "checkpoint.bin";
 
-/// The film of the grains that the report plays.
-pub(super) const MOTION: &str = "motion.json";
+/// The animation of the grains that the report plays.
+pub(super) const ANIMATION: &str = "motion.json";
 
-/// The film of a run, if its folder has one that is sound.
-pub(super) fn read_motion(place: &Path) -> Option<Motion> {
-    let file = fs::File::open(place.join(MOTION)).ok()?;
-    serde_json::from_reader(BufReader::new(file)).ok().filter(Motion::is_sound)
+/// The animation of a run, if its folder has one that is sound.
+pub(super) fn read_animation(place: &Path) -> Option<Animation> {
+    let file = fs::File::open(place.join(ANIMATION)).ok()?;
+    serde_json::from_reader(BufReader::new(file)).ok().filter(Animation::is_sound)
 }
 
 /// Written and removed to see whether files can be made.
@@ -29,13 +29,13 @@ pub(super) fn is_partial(name: &str) -> bool {
     name == PROBE || name.starts_with('.') && name.contains(".part-")
 }
 
-/// Pictures of the grains for ParaView.
+/// Frames of the grains for ParaView.
 pub(super) fn is_frame(name: &str) -> bool {
     name.strip_prefix("grains_").and_then(|n| n.strip_suffix(".vtp")).is_some_and(|n| n.parse::<u64>().is_ok())
 }
 
 impl Folder {
-    /// Takes the checkpoint and the pictures of the run that goes on: it may fail before it has made its own.
+    /// Takes the checkpoint and the frames of the run that goes on: it may fail before it has made its own.
     ///
     /// # Errors
     /// [`OutputError::Interrupted`] with the file.

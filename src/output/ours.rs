@@ -4,7 +4,7 @@ use std::path::Path;
 use std::{fs, io};
 
 use super::error::OutputError;
-use super::grains::{CHECKPOINT, MOTION, is_frame, is_partial};
+use super::grains::{ANIMATION, CHECKPOINT, is_frame, is_partial};
 use super::lock::is_lock;
 
 /// What the report shows that stands in no table.
@@ -44,7 +44,7 @@ impl Kind {
                 "report.html",
                 CHECKPOINT,
                 "grains.csv",
-                MOTION,
+                ANIMATION,
                 "section.csv",
                 "section.vts",
                 WORDS,
@@ -121,7 +121,7 @@ pub(super) fn remove(folder: &Path, kind: Kind) {
     let _ = fs::remove_dir(folder);
 }
 
-/// Removes the folder whose place `new` has taken. What somebody put there since it was judged moves along.
+/// Removes the folder whose place `new` has taken. What somebody put there since it was checked moves along.
 pub(super) fn retire(old: &Path, new: &Path, kind: Kind) {
     remove(old, kind);
     // What cannot be moved stays where it is.

@@ -1,4 +1,4 @@
-//! Where an output really goes: a path is resolved before what stands there is judged.
+//! Where an output really goes: a path is resolved before what stands there is checked.
 
 use std::ffi::OsStr;
 use std::path::{Component, Path, PathBuf};
@@ -52,7 +52,7 @@ pub(super) fn resolve(typed: &Path) -> Result<PathBuf, OutputError> {
                     Ok(known) if !known.is_symlink() => found = next,
                     Ok(_) => match fs::canonicalize(&next) {
                         Ok(place) => found = place,
-                        // A link to nowhere is no place; as the last name it is judged as what it is.
+                        // A link to nowhere is no place; as the last name it is taken as what it is.
                         Err(_) if components.peek().is_none() => found = next,
                         Err(error) => return Err(refused(error)),
                     },

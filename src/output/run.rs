@@ -11,13 +11,13 @@ use sha2::{Digest, Sha256};
 
 use super::error::OutputError;
 use super::folder::{Folder, write_whole};
-use super::grains::{MOTION, read_motion};
+use super::grains::{ANIMATION, read_animation};
 use super::lock::Site;
 use super::ours::{FIGURES, WORDS};
 use super::path::resolve;
 use crate::plot::{self, Page};
 use crate::result::{
-    Axis, Cost, ErrorReport, Failure, Field, Figure, Head, Motion, Outcome, Profile, Provenance, Results, Series,
+    Animation, Axis, Cost, ErrorReport, Failure, Field, Figure, Head, Outcome, Profile, Provenance, Results, Series,
     SideView, Statement, Status, Summary, TableError, quantity,
 };
 
@@ -189,7 +189,7 @@ fn write_fields(folder: &Folder, outcome: &Outcome) -> Result<(), OutputError> {
         folder.write("grains.csv", |to| to.write_all(grains.csv().as_bytes()))?;
     }
     match &outcome.animation {
-        Some(animation) => folder.write(MOTION, |to| Ok(serde_json::to_writer(to, animation)?)),
+        Some(animation) => folder.write(ANIMATION, |to| Ok(serde_json::to_writer(to, animation)?)),
         None => Ok(()),
     }
 }
@@ -221,7 +221,7 @@ struct Drawn<'a> {
     profile: Option<&'a Profile>,
     field: Option<&'a Field>,
     grains: Option<&'a SideView>,
-    animation: Option<&'a Motion>,
+    animation: Option<&'a Animation>,
 }
 
 /// Draws the report and, on demand, the figures as PNG, into `place`; `shown` is what the paths are called.
@@ -235,12 +235,12 @@ fn draw(
 ) -> Result<Vec<PathBuf>, OutputError> {
     let mut figures = drawn.profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
     figures.extend(words.figures.iter().cloned());
-    let picture = picture(drawn, summary);
+    let drawing = drawing(drawn, summary);
     let page = plot::report_html(&Page {
         summary,
         figures: &figures,
-        picture: picture.as_ref().map(|(svg, caption)| (svg.as_str(), *caption)),
-        motion: drawn.animation,
+        drawing: drawing.as_ref().map(|(svg, caption)| (svg.as_str(), *caption)),
+        animation: drawn.animation,
         statement: &words.statement,
         case_toml: case,
         notes: std::slice::from_ref(&words.title),
@@ -266,8 +266,8 @@ fn map(field: &Field, summary: &Summary) -> Option<plot::Map> {
     Some(plot::Map { panels: vec![panel], colours: Axis::linear("velocity", unit) })
 }
 
-/// The picture of a run that has fields, with its caption.
-fn picture(drawn: &Drawn<'_>, summary: &Summary) -> Option<(String, &'static str)> {
+/// The drawing of a run that has fields, with its caption.
+fn drawing(drawn: &Drawn<'_>, summary: &Summary) -> Option<(String, &'static str)> {
     if let Some(svg) = drawn.grains.and_then(plot::grains_svg) {
         let caption =
             "Side view of the grains nearest to the viewer at the end, coloured by their velocity along the flow.";
@@ -290,7 +290,7 @@ pub(super) fn draw_png(place: &Path, shown: &Path, figures: &[Figure]) -> Result
     figures.iter().map(|figure| draw_one(place, shown, &figure.stem, |path| plot::png(figure, path))).collect()
 }
 
-/// Draws one picture into `place`/figures and returns what its path is called.
+/// Draws one figure into `place`/figures and returns what its path is called.
 pub(super) fn draw_one(
     place: &Path,
     shown: &Path,
@@ -373,7 +373,7 @@ pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
         // An earlier version wrote none: the tables are drawn.
         None => Words::default(),
     };
-    let animation = read_motion(folder);
+    let animation = read_animation(folder);
     let drawn = Drawn {
         profile: profile.as_ref(),
         field: field.as_ref(),

@@ -85,14 +85,14 @@ const SHORT: usize = 32;
 fn table(heading: &str, lead: &str, head: &[String], rows: &[Vec<Cell>]) -> String {
     let any = |i: usize, is: fn(&Cell) -> bool| rows.iter().filter_map(|row| row.get(i)).any(is);
     let numeric = |i| any(i, |cell| matches!(cell, Cell::Number { .. })) || !any(i, |c| matches!(c, Cell::Text(_)));
-    let said = |i| rows.is_empty() || any(i, |cell| !matches!(cell, Cell::Text(text) if text.is_empty()));
+    let reported = |i| rows.is_empty() || any(i, |cell| !matches!(cell, Cell::Text(text) if text.is_empty()));
     let class = |i| if numeric(i) { " class=\"num\"" } else { "" };
-    let named = head.iter().enumerate().filter(|(i, _)| said(*i));
+    let named = head.iter().enumerate().filter(|(i, _)| reported(*i));
     let heads: String = named.map(|(i, name)| format!("<th{}>{}</th>", class(i), escape(name))).collect();
     let mut body = String::new();
     for row in rows {
         body += "<tr>";
-        for (i, cell) in row.iter().enumerate().filter(|(i, _)| said(*i)) {
+        for (i, cell) in row.iter().enumerate().filter(|(i, _)| reported(*i)) {
             body += &match cell {
                 Cell::Text(text) if !numeric(i) && text.chars().count() < SHORT => {
                     format!("<td class=\"short\">{}</td>", escape(text))

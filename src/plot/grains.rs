@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use crate::result::{Motion, SideView};
+use crate::result::{Animation, SideView};
 use crate::units::readable;
 
 /// Colours from slow to fast; all tell apart from light and dark pages, and without colour by their lightness.
 const COLOURS: [[f64; 3]; 4] = [[68.0, 58.0, 120.0], [49.0, 122.0, 142.0], [94.0, 190.0, 112.0], [240.0, 210.0, 50.0]];
-/// Width of the picture \[px].
+/// Width of the drawing \[px].
 const WIDTH: f64 = 720.0;
 
-/// The picture; none if there is nothing to draw.
+/// The drawing; none if there is nothing to draw.
 #[must_use]
 pub fn grains_svg(view: &SideView) -> Option<String> {
     let mut rows: Vec<[f64; 4]> = view.grains.iter().copied().filter(|row| row.iter().all(|v| v.is_finite())).collect();
@@ -22,7 +22,7 @@ pub fn grains_svg(view: &SideView) -> Option<String> {
     if !(whole > left && top > bottom) {
         return None;
     }
-    rows.retain(|g| g[0] + g[2] <= left + Motion::LONGEST * (top - bottom));
+    rows.retain(|g| g[0] + g[2] <= left + Animation::LONGEST * (top - bottom));
     let (_, right) = span(&rows, &|g| [g[0] - g[2], g[0] + g[2]]);
     let (slow, fast) = span(&rows, &|g| [g[3], g[3]]);
     let part = if right < whole {
@@ -55,7 +55,7 @@ pub fn grains_svg(view: &SideView) -> Option<String> {
     Some(svg + "</svg>")
 }
 
-/// The colours from slow to fast under a picture, with the two velocities [m/s] and what else there is to say.
+/// The colours from slow to fast under a drawing, with the two velocities [m/s] and what else there is to say.
 pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64), note: &str) -> String {
     let mut svg = String::new();
     for step in 0..60 {
@@ -79,7 +79,7 @@ pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64), note:
     svg
 }
 
-/// The colours from slow to fast, for the script that plays a film.
+/// The colours from slow to fast, for the script that plays an animation.
 pub(super) fn colours() -> String {
     let last = COLOURS.len() - 1;
     (0..=last).map(|i| colour(i as f64 / last as f64)).collect::<Vec<_>>().join(" ")
@@ -105,7 +105,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_grain_is_a_circle_and_nothing_is_no_picture() {
+    fn every_grain_is_a_circle_and_nothing_is_no_drawing() {
         let table = "x_m,z_m,radius_m,u_particle_m_s\n0,0,0.003,0\n0.006,0,0.003,0.5\n";
         let view = SideView::read(table.as_bytes()).unwrap().unwrap();
         let svg = grains_svg(&view).unwrap();

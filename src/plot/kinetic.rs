@@ -9,15 +9,15 @@ use crate::units::readable_unit;
 /// The figure; none for a profile without the budget of the fluctuations.
 pub(super) fn figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
     let budget = profile.get(&quantity::PRODUCTION);
-    budget.map(|_| Scene { profile, z: profile.axis() }.fluctuations(&summary.case)).into_iter().collect()
+    budget.map(|_| Drawing { profile, z: profile.axis() }.fluctuations(&summary.case)).into_iter().collect()
 }
 
-struct Scene<'a> {
+struct Drawing<'a> {
     profile: &'a Profile,
     z: Vec<f64>,
 }
 
-impl Scene<'_> {
+impl Drawing<'_> {
     fn at(&self, quantity: &Quantity, row: usize) -> Option<f64> {
         self.profile.get(quantity)?.get(row).copied().flatten()
     }

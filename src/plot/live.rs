@@ -106,7 +106,7 @@ fn number(x: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{profile_figures, several, trials};
+    use super::super::{profile_figures, samples, several};
     use super::*;
     use crate::result::Dash;
 
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn a_straight_line_is_its_ends_and_a_gap_makes_two_pieces() {
-        let mut figure = trials::convergence();
+        let mut figure = samples::convergence();
         figure.y = Axis::linear("y", "m");
         figure.panels.truncate(1);
         figure.panels[0].x = Axis::linear("x", "m");
@@ -136,7 +136,7 @@ mod tests {
 
     #[test]
     fn one_entry_of_a_legend_names_the_curves_of_all_panels_that_have_none() {
-        let (profile, summary) = trials::laminar_bed();
+        let (profile, summary) = samples::laminar_bed();
         let figure = &profile_figures(&profile, &summary)[0];
         let homes: Vec<usize> = (0..figure.panels.len()).map(|p| home(figure, p)).collect();
         assert_eq!(homes, (0..figure.panels.len()).collect::<Vec<_>>(), "each panel has its own curves");

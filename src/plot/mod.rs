@@ -1,6 +1,7 @@
 //! Figures and the page of a run, from stored results alone: [`profile_figures`] makes figures of a profile, [`svg()`]
 //! and [`png()`] draw them, [`report_html`] sets the page. [`shared_figures`] and [`document_html`] do so for several.
 
+mod animation;
 mod axis;
 mod canvas;
 mod document;
@@ -10,16 +11,15 @@ mod interface;
 mod layout;
 mod live;
 mod map;
-mod motion;
 mod png;
 mod report;
+#[cfg(test)]
+mod samples;
 mod section;
 mod several;
 mod shell;
 mod svg;
 mod theme;
-#[cfg(test)]
-mod trials;
 
 use std::fmt::Display;
 use std::path::PathBuf;

@@ -65,21 +65,21 @@ pub(super) fn averaged(fine: &[u8], width: usize, n: usize) -> Vec<u8> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::trials;
+    use super::super::samples;
     use super::*;
 
     #[test]
     fn the_file_has_the_promised_width_and_a_failure_names_its_path() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("figure.png");
-        png(&trials::convergence(), &path).unwrap();
+        png(&samples::convergence(), &path).unwrap();
         let bytes = std::fs::read(&path).unwrap();
         assert_eq!(&bytes[1..4], b"PNG");
         let number = |at: usize| u32::from_be_bytes(bytes[at..at + 4].try_into().unwrap());
         assert_eq!(number(16), 1600);
         assert!((1000..1600).contains(&number(20)), "{}", number(20));
         let missing = folder.path().join("missing").join("figure.png");
-        let error = png(&trials::convergence(), &missing).unwrap_err();
+        let error = png(&samples::convergence(), &missing).unwrap_err();
         assert!(matches!(&error, PlotError::Write { path, .. } if *path == missing), "{error}");
     }
 

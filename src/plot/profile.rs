@@ -12,40 +12,40 @@ use crate::result::{Axis, Curve, Dash, Figure, Level, Panel, Scale};
 /// flow; and, where turbulence over a wall spans decades of z, the velocity over log z. A quantity that the profile
 /// does not have gets no panel, curves that coincide are drawn once.
 pub(super) fn figures(profile: &Profile, summary: &Summary) -> Vec<Figure> {
-    let scene = Scene::new(profile, summary);
+    let drawing = Drawing::new(profile, summary);
     let mut figures = Vec::new();
     let mut panels: Vec<Panel> = [
-        scene.velocities(),
-        scene.stresses(),
-        scene.single("solid fraction φ", &quantity::PHI, GRAINS),
-        scene.single("flux φuₚ", &quantity::FLUX, GRAINS),
-        scene.single("T", &quantity::GRANULAR_TEMPERATURE, GRAINS),
+        drawing.velocities(),
+        drawing.stresses(),
+        drawing.single("solid fraction φ", &quantity::PHI, GRAINS),
+        drawing.single("flux φuₚ", &quantity::FLUX, GRAINS),
+        drawing.single("T", &quantity::GRANULAR_TEMPERATURE, GRAINS),
     ]
     .into_iter()
     .flatten()
     .collect();
     let mut turbulence: Vec<Panel> = [
-        scene.single("mixing length", &quantity::MIXING_LENGTH, TURBULENCE),
-        scene.single("eddy viscosity", &quantity::EDDY_VISCOSITY, TURBULENCE),
+        drawing.single("mixing length", &quantity::MIXING_LENGTH, TURBULENCE),
+        drawing.single("eddy viscosity", &quantity::EDDY_VISCOSITY, TURBULENCE),
     ]
     .into_iter()
     .flatten()
     .collect();
     // More than five panels side by side leave no room for their titles.
-    if !scene.has_grains {
+    if !drawing.has_grains {
         panels.append(&mut turbulence);
     }
     if !panels.is_empty() {
-        figures.push(scene.figure("profiles", panels, scene.elevation()));
+        figures.push(drawing.figure("profiles", panels, drawing.elevation()));
     }
     if !turbulence.is_empty() {
-        figures.push(scene.figure("turbulence", turbulence, scene.elevation()));
+        figures.push(drawing.figure("turbulence", turbulence, drawing.elevation()));
     }
-    if scene.is_logarithmic()
-        && let Some(velocities) = scene.velocities()
+    if drawing.is_logarithmic()
+        && let Some(velocities) = drawing.velocities()
     {
-        let axis = Axis { ends: None, scale: Scale::Log, ..scene.elevation() };
-        figures.push(scene.figure("velocity_log", vec![velocities], axis));
+        let axis = Axis { ends: None, scale: Scale::Log, ..drawing.elevation() };
+        figures.push(drawing.figure("velocity_log", vec![velocities], axis));
     }
     figures
 }
@@ -59,7 +59,7 @@ const FLUID: Pen = Pen(1, Dash::Solid);
 const GRAINS: Pen = Pen(2, Dash::Dashed);
 const TURBULENCE: Pen = Pen(3, Dash::DashDotted);
 
-struct Scene<'a> {
+struct Drawing<'a> {
     profile: &'a Profile,
     summary: &'a Summary,
     /// elevations \[m]
@@ -69,7 +69,7 @@ struct Scene<'a> {
     has_grains: bool,
 }
 
-impl<'a> Scene<'a> {
+impl<'a> Drawing<'a> {
     fn new(profile: &'a Profile, summary: &'a Summary) -> Self {
         let z = profile.axis();
         let highest = z.iter().fold(0.0_f64, |m, z| m.max(z.abs()));
@@ -285,17 +285,17 @@ mod tests {
 
     #[test]
     fn coincident_velocities_are_drawn_once() {
-        let (profile, summary) = trials::laminar_bed();
+        let (profile, summary) = samples::laminar_bed();
         let figures = profile_figures(&profile, &summary);
         assert_eq!(figures.len(), 1);
         assert_eq!(names(&figures[0].panels[0]), ["mixture"]);
-        let (profile, summary) = trials::two_fluid_bed();
+        let (profile, summary) = samples::two_fluid_bed();
         assert_eq!(names(&profile_figures(&profile, &summary)[0].panels[0]), ["fluid", "grains"]);
     }
 
     #[test]
     fn a_laminar_bed_has_stresses_without_reynolds_and_their_total() {
-        let (profile, summary) = trials::laminar_bed();
+        let (profile, summary) = samples::laminar_bed();
         let figure = &profile_figures(&profile, &summary)[0];
         let titles: Vec<&str> = figure.panels.iter().map(|p| p.x.title.as_str()).collect();
         assert_eq!(titles, ["velocity", "shear stress", "solid fraction φ", "flux φuₚ"]);
@@ -309,7 +309,7 @@ mod tests {
 
     #[test]
     fn the_solid_fraction_steps_at_the_bed_level() {
-        let (profile, summary) = trials::laminar_bed();
+        let (profile, summary) = samples::laminar_bed();
         let figure = &profile_figures(&profile, &summary)[0];
         let bed = figure.tint_below.unwrap();
         let at_bed = |panel: usize| -> Vec<f64> {
@@ -326,7 +326,7 @@ mod tests {
 
     #[test]
     fn what_is_undefined_breaks_the_line_and_the_total() {
-        let (profile, summary) = trials::two_fluid_bed();
+        let (profile, summary) = samples::two_fluid_bed();
         let figure = &profile_figures(&profile, &summary)[0];
         let grains = &figure.panels[0].curves[1];
         assert!(grains.points.last().unwrap().is_none());
@@ -335,20 +335,20 @@ mod tests {
         profile.push(&quantity::PHI, vec![Some(0.6), Some(0.0)]).unwrap();
         profile.push(&quantity::TAU_VISCOUS, vec![Some(1.0), Some(2.0)]).unwrap();
         profile.push(&quantity::TAU_PARTICLE, vec![None, None]).unwrap();
-        let scene = Scene::new(&profile, &summary);
-        assert_eq!((scene.total(0), scene.total(1)), (Some(1.0), Some(2.0)));
+        let drawing = Drawing::new(&profile, &summary);
+        assert_eq!((drawing.total(0), drawing.total(1)), (Some(1.0), Some(2.0)));
         profile.push(&quantity::TAU_REYNOLDS, vec![Some(1.0), None]).unwrap();
-        assert_eq!(Scene::new(&profile, &summary).total(1), None);
+        assert_eq!(Drawing::new(&profile, &summary).total(1), None);
     }
 
     #[test]
     fn a_wall_flow_over_decades_also_gets_a_logarithmic_elevation() {
-        let (profile, summary) = trials::log_law();
+        let (profile, summary) = samples::log_law();
         let figures = profile_figures(&profile, &summary);
         assert_eq!(figures.iter().map(|f| f.stem.as_str()).collect::<Vec<_>>(), ["profiles", "velocity_log"]);
         assert_eq!(figures[1].y.scale, Scale::Log);
         assert_eq!(figures[0].tint_below, None);
-        let (profile, summary) = trials::bingham_plane();
+        let (profile, summary) = samples::bingham_plane();
         let figures = profile_figures(&profile, &summary);
         assert_eq!(figures.len(), 1);
         assert_eq!(figures[0].levels.iter().map(|l| l.label.as_str()).collect::<Vec<_>>(), ["edge of plug"; 2]);
@@ -360,7 +360,7 @@ mod tests {
         profile.push(&quantity::U_FLUID, vec![Some(0.0), Some(0.0)]).unwrap();
         profile.push(&quantity::TAU_REYNOLDS, vec![Some(0.0), None]).unwrap();
         profile.push(&quantity::FLUX, vec![Some(0.0), Some(0.0)]).unwrap();
-        let (_, summary) = trials::laminar_bed();
+        let (_, summary) = samples::laminar_bed();
         let figures = profile_figures(&profile, &summary);
         assert_eq!(figures[0].panels.len(), 2);
         assert!(profile_figures(&Profile::new(vec![0.1]).unwrap(), &summary).is_empty());

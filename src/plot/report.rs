@@ -4,10 +4,10 @@
 use std::fmt::Write as _;
 
 use crate::result::quantity::{self, RESULTS};
-use crate::result::{Motion, Reported, Statement, Status, Summary};
+use crate::result::{Animation, Reported, Statement, Status, Summary};
 use crate::units::{readable, readable_mean, significant};
 
-use super::motion::motion_html;
+use super::animation::animation_html;
 use super::shell::{foot, head};
 use super::svg::{escape, svg};
 use crate::result::Figure;
@@ -19,10 +19,10 @@ pub struct Page<'a> {
     pub summary: &'a Summary,
     /// in order
     pub figures: &'a [Figure],
-    /// a picture as SVG with its caption, if there is one
-    pub picture: Option<(&'a str, &'a str)>,
-    /// the film of its grains, which takes the place of the picture where it can be played
-    pub motion: Option<&'a Motion>,
+    /// a drawing as SVG with its caption, if there is one
+    pub drawing: Option<(&'a str, &'a str)>,
+    /// the animation of its grains, which takes the place of the drawing where it can be played
+    pub animation: Option<&'a Animation>,
     /// the equations solved, and the laws in them
     pub statement: &'a Statement,
     /// the resolved case
@@ -57,11 +57,11 @@ pub fn report_html(page: &Page<'_>) -> String {
     html += &results(summary);
     html += &balances(summary);
     html += &validity(summary);
-    html += &page.motion.map(motion_html).unwrap_or_default();
+    html += &page.animation.map(animation_html).unwrap_or_default();
     html += &figures(page.figures);
-    if let Some((picture, caption)) = page.picture {
+    if let Some((drawing, caption)) = page.drawing {
         html += &format!(
-            "<figure id=\"picture\"><div class=\"wide\">{picture}</div><figcaption>{}</figcaption></figure>\n",
+            "<figure id=\"drawing\"><div class=\"wide\">{drawing}</div><figcaption>{}</figcaption></figure>\n",
             escape(caption)
         );
     }
@@ -315,7 +315,7 @@ fn subscripts(symbol: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::shell::tests::has_one_script;
-    use super::super::{profile_figures, trials};
+    use super::super::{profile_figures, samples};
     use super::*;
     use crate::result::StatedLaw;
 
@@ -334,14 +334,14 @@ mod tests {
 
     #[test]
     fn the_page_says_the_numbers_first_and_every_digit_on_hover() {
-        let (profile, summary) = trials::laminar_bed();
+        let (profile, summary) = samples::laminar_bed();
         let figures = profile_figures(&profile, &summary);
         let toml = "format = 1";
         let html = report_html(&Page {
             summary: &summary,
             figures: &figures,
-            picture: None,
-            motion: None,
+            drawing: None,
+            animation: None,
             statement: &Statement { equations: "τ = η du/dz".into(), laws: Vec::new() },
             case_toml: toml,
             notes: &[],
@@ -366,15 +366,15 @@ mod tests {
 
     #[test]
     fn nothing_from_a_user_becomes_markup() {
-        let summary = trials::hostile_failure();
-        let figures = profile_figures(&trials::laminar_bed().0, &summary);
+        let summary = samples::hostile_failure();
+        let figures = profile_figures(&samples::laminar_bed().0, &summary);
         let hostile = "</pre><script>alert(1)</script>";
         let law = StatedLaw { equation: hostile.into(), source: hostile.into(), ..StatedLaw::default() };
         let html = report_html(&Page {
             summary: &summary,
             figures: &figures,
-            picture: None,
-            motion: None,
+            drawing: None,
+            animation: None,
             statement: &Statement { equations: hostile.into(), laws: vec![law] },
             case_toml: hostile,
             notes: &[hostile.into()],

@@ -7,7 +7,7 @@ use super::grains::{colour, scale_bar};
 use super::map::{MapPanel, Place, Trail};
 use crate::result::{Axis, Dash, Field};
 
-/// Width or height of the picture, whichever is larger \[px].
+/// Width or height of the drawing, whichever is larger \[px].
 const SIZE: f64 = 560.0;
 /// Most tiles along one direction.
 const TILES: usize = 64;

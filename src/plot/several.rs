@@ -48,16 +48,16 @@ pub fn shared_figures(
     top: Option<f64>,
     scaled: Option<fn(&Quantity) -> &'static str>,
 ) -> Vec<Figure> {
-    let scene = Scene { traces, top, scaled };
-    let first: Vec<&'static Quantity> = FIRST.iter().filter_map(|group| scene.most_shared(group)).collect();
-    let others = COLUMNS.iter().copied().skip(1).filter(|q| !first.contains(q) && scene.holders(q) > 1);
+    let drawing = Drawing { traces, top, scaled };
+    let first: Vec<&'static Quantity> = FIRST.iter().filter_map(|group| drawing.most_shared(group)).collect();
+    let others = COLUMNS.iter().copied().skip(1).filter(|q| !first.contains(q) && drawing.holders(q) > 1);
     let others: Vec<&'static Quantity> = others.collect();
     let pages = std::iter::once(("profiles".to_owned(), first.as_slice()))
         .chain(others.chunks(PANELS).enumerate().map(|(i, q)| (format!("profiles_{}", i + 2), q)));
-    pages.filter(|(_, columns)| !columns.is_empty()).map(|(stem, columns)| scene.figure(stem, columns)).collect()
+    pages.filter(|(_, columns)| !columns.is_empty()).map(|(stem, columns)| drawing.figure(stem, columns)).collect()
 }
 
-struct Scene<'a> {
+struct Drawing<'a> {
     traces: &'a [Trace<'a>],
     top: Option<f64>,
     scaled: Option<fn(&Quantity) -> &'static str>,
@@ -69,7 +69,7 @@ impl Trace<'_> {
     }
 }
 
-impl Scene<'_> {
+impl Drawing<'_> {
     /// The marker of trace `i`: another one for each that is marked.
     fn marker(&self, i: usize) -> Marker {
         let before = self.traces.iter().take(i).filter(|t| t.is_marked()).count();
@@ -166,7 +166,7 @@ fn dash(i: usize) -> Dash {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{png, svg, trials};
+    use super::super::{png, samples, svg};
     use super::*;
 
     fn data() -> (Profile, Profile) {
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn each_trace_keeps_its_colour_and_the_first_panel_names_them_all() {
-        let ((a, _), (b, _), (c, errors)) = (trials::laminar_bed(), trials::two_fluid_bed(), data());
+        let ((a, _), (b, _), (c, errors)) = (samples::laminar_bed(), samples::two_fluid_bed(), data());
         let trace = |name, profile, errors, measured| Trace {
             name,
             profile,
@@ -216,7 +216,7 @@ mod tests {
 
     #[test]
     fn what_only_one_has_gets_no_panel() {
-        let ((a, _), (c, _)) = (trials::laminar_bed(), data());
+        let ((a, _), (c, _)) = (samples::laminar_bed(), data());
         let trace =
             |name, profile| Trace { name, profile, errors: None, measured: false, bed: None, phi_interface: None };
         let figures = shared_figures(&[trace("a", &a), trace("c", &c)], None, Some(|_| "unit"));

@@ -7,8 +7,8 @@ use crate::result::base64;
 use super::svg::escape;
 use super::theme;
 
-/// The script of every page: it makes figures answer to a pointer and plays films. A page without it says the same.
-const SCRIPT: &str = concat!(include_str!("motion.js"), include_str!("report.js"));
+/// The script of every page: it makes figures answer to a pointer and plays animations. A page without it says the same.
+const SCRIPT: &str = concat!(include_str!("animation.js"), include_str!("report.js"));
 
 /// Everything before the content: title, style in light and dark. `version` of bedload made it.
 pub(super) fn head(title: &str, version: &str) -> String {

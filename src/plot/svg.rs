@@ -147,7 +147,7 @@ pub(super) fn escape(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{profile_figures, trials};
+    use super::super::{profile_figures, samples};
     use super::*;
     use crate::result::{Axis, Curve, Dash, Level, Marker, Panel, Scale};
 
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn a_figure_is_small_scales_with_its_page_and_takes_its_colours() {
-        let (profile, summary) = trials::laminar_bed();
+        let (profile, summary) = samples::laminar_bed();
         let drawing = svg(&profile_figures(&profile, &summary)[0]).unwrap();
         sound(&drawing);
         assert!(drawing.len() < 30_000, "{}", drawing.len());
@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn gaps_break_lines() {
-        let (profile, summary) = trials::laminar_bed();
+        let (profile, summary) = samples::laminar_bed();
         let mut figure = profile_figures(&profile, &summary)[0].clone();
         let curves = |figure: &Figure| svg(figure).unwrap().matches("class=\"s-c0\"").count();
         let before = curves(&figure);
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn notes_are_what_a_reader_sees_who_points() {
-        let mut figure = trials::convergence();
+        let mut figure = samples::convergence();
         let curve = &mut figure.panels[0].curves[0];
         curve.notes = vec!["24 cells: <1 %".into(); curve.points.len()];
         curve.marker = Some(Marker::Cross);
@@ -196,7 +196,7 @@ mod tests {
 
     #[test]
     fn labels_of_users_stay_text() {
-        let mut figure = trials::convergence();
+        let mut figure = samples::convergence();
         figure.caption = "</title><script>".into();
         figure.levels = vec![Level { y: 1e-3, label: "<script>\"&'".into() }];
         figure.panels[0].x.title = "<b class=\"#00005E\">".into();
@@ -229,7 +229,7 @@ mod tests {
                 };
                 let axis = Axis { scale, ..Axis::linear("x", "m") };
                 let panel = Panel { x: axis.clone(), curves: vec![curve] };
-                let mut figure = trials::convergence();
+                let mut figure = samples::convergence();
                 figure.y = axis;
                 figure.panels = vec![panel.clone(), panel];
                 sound(&svg(&figure).unwrap());

@@ -1,14 +1,15 @@
 //! What a run returns: profiles over z, series over iterations or time, named numbers, and where all of it came from.
 //! These are the only types that plots, reports, tables and comparisons accept.
 
+mod animation;
 mod checkpoint;
 mod class;
 mod codes;
 mod context;
+mod estimate;
 mod failure;
 mod field;
 pub mod figure;
-mod motion;
 mod outcome;
 mod provenance;
 pub mod quantity;
@@ -17,14 +18,15 @@ mod summary;
 mod table;
 mod watch;
 
+pub use animation::{Animation, base64};
 pub use checkpoint::CheckpointError;
 pub use class::Class;
 pub(crate) use codes::codes;
 pub use context::{Checkpoints, Context, Frames};
+pub use estimate::{Estimate, Unknown};
 pub use failure::{Failure, MethodError, NumericalError, SolveError};
 pub use field::{Field, SideView};
 pub use figure::{Axis, Curve, Dash, Figure, Level, Marker, Panel, Scale};
-pub use motion::{Motion, base64};
 pub use outcome::Outcome;
 pub use provenance::Provenance;
 pub use quantity::Quantity;

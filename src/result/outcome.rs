@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::{
-    Balance, Failure, Field, Figure, Motion, NumericalError, Profile, Results, Series, SideView, Statement, Status,
+    Animation, Balance, Failure, Field, Figure, NumericalError, Profile, Results, Series, SideView, Statement, Status,
     Validity, quantity as q,
 };
 
@@ -30,7 +30,7 @@ pub struct Outcome {
     /// grains at the end, seen from the side
     pub grains: Option<SideView>,
     /// grains as they flowed, seen from the side
-    pub animation: Option<Motion>,
+    pub animation: Option<Animation>,
     /// figures that only the model has, besides those that its columns give
     pub figures: Vec<Figure>,
     /// the equations that were solved, and the laws in them

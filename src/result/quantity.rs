@@ -183,7 +183,7 @@ catalogue! {
     TIME_STEP = "time_step_s", "time step", "Δt", "s", "of the grains";
     TIME_STEP_RATIO = "time_step_over_limit", "time step over its stability limit", "Δt/Δt_max", "1", "limit of the grain that sets it, with its contacts at the end";
     WELL_POSEDNESS = "well_posedness", "condition of well-posedness", "C", "1", "4n² - 4n + μ²(1 - n/2)², n = I μ'/μ: above 0 the same flow is ill-posed in two and three dimensions (Barker et al. 2015)";
-    HELD = "held_below_m", "grains are held below", "z_h", "m", "top of the layers of the deep bed that hardly creep and are not moved, at the end";
+    FROZEN_BELOW = "held_below_m", "grains are frozen below", "z_h", "m", "top of the layers of the deep bed that hardly creep and are frozen, at the end";
     DRAG_LIMIT = "time_step_drag_limit_s", "longest time step that the drag bears", "Δt_d", "s", "2 m over the slope of the drag, of the grain where it is least, at the end";
     EXPLICIT_LIMIT = "fluid_step_limit_s", "longest explicit step of the fluid", "Δt_f", "s", "2 over the largest sum of magnitudes in a row of the derivatives of the momentum balance, at the end";
     COORDINATION = "coordination", "coordination number", "Z", "1", "contacts of a mobile grain with grains and walls, mean over time";
@@ -215,7 +215,7 @@ catalogue! {
     STACK_ERROR = "stack_error", "error of the stack", "max |Δδ/δ|", "1", "overlaps of three grains at rest, relative to the weight that each carries over k_n";
     MOMENTUM_ERROR = "momentum_error", "drift of the momentum", "max |Δp|/Σ|p|", "1", "of a free cluster and of a periodic box, relative to the sum of magnitudes";
     ANGULAR_MOMENTUM_ERROR = "angular_momentum_error", "drift of the angular momentum", "max |ΔL|/Σ|L|", "1", "of a free cluster, relative to the sum of magnitudes";
-    LEDGER_ERROR = "energy_ledger_error", "defect of the account of energies", "ΔE/E", "1", "kinetic energy against all work over a million steps, relative to the largest";
+    LEDGER_ERROR = "energy_ledger_error", "defect of the energy balance", "ΔE/E", "1", "kinetic energy against all work over a million steps, relative to the largest";
     SPRING_DEFECT = "spring_energy_defect", "defect of the spring energy", "max |ΔE|/E", "1", "kinetic and spring energy within an elastic impact at 0.7 of the limit of the pair, relative to the energy before";
     SPRING_DEFECT_FINE = "spring_energy_defect_fine", "defect of the spring energy at a tenth of the step", "max |ΔE|/E", "1", "the same at a tenth of that step";
     SPRING_ORDER = "spring_energy_order", "order of the spring energy", "p", "1", "observed between both";

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Provenance, Quantity};
+use super::{Estimate, Provenance, Quantity};
 
 /// State of a run folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -70,14 +70,14 @@ impl Results {
         }
     }
 
-    /// Reports a mean \[SI] with its standard error, or why that cannot be told.
-    pub fn set_mean(&mut self, quantity: &'static Quantity, value: f64, stderr: Result<f64, &str>) {
-        self.set(quantity, value);
+    /// Reports a mean \[SI] with its standard error, or why it has none.
+    pub fn set_mean(&mut self, quantity: &'static Quantity, estimate: Estimate) {
+        self.set(quantity, estimate.mean);
         let Some((_, reported)) = self.0.last_mut().filter(|(_, reported)| reported.value.is_some()) else { return };
-        match stderr {
+        match estimate.stderr {
             Ok(error) if error.is_finite() => reported.stderr = Some(error),
             Ok(_) => reported.reason = Some(OVERFLOWED.into()),
-            Err(reason) => reported.reason = Some(reason.into()),
+            Err(why) => reported.reason = Some(why.reason().into()),
         }
     }
 

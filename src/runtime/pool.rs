@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::thread::{self, JoinHandle};
 
-/// Turns of a loop before a waiting thread lets others run, and before it sleeps.
+/// Iterations of a loop before a waiting thread lets others run, and before it sleeps.
 const SPINS: u32 = 4_000;
 const YIELDS: u32 = 2_000;
 
@@ -98,10 +98,10 @@ impl Pool {
             shared.wake.notify_all();
         }
         let own = panic::catch_unwind(AssertUnwindSafe(|| job(0)));
-        let mut turns = 0;
+        let mut iterations = 0;
         while shared.done.load(Ordering::Acquire) < self.workers.len() {
-            turns += 1;
-            if turns < SPINS { std::hint::spin_loop() } else { thread::yield_now() }
+            iterations += 1;
+            if iterations < SPINS { std::hint::spin_loop() } else { thread::yield_now() }
         }
         match own {
             Err(payload) => panic::resume_unwind(payload),
@@ -137,25 +137,25 @@ impl Drop for Pool {
 }
 
 fn work(shared: &Shared, index: usize) {
-    let mut seen = 0;
+    let mut last = 0;
     loop {
-        let mut turns = 0;
-        while shared.epoch.load(Ordering::Acquire) == seen {
-            turns += 1;
-            if turns < SPINS {
+        let mut iterations = 0;
+        while shared.epoch.load(Ordering::Acquire) == last {
+            iterations += 1;
+            if iterations < SPINS {
                 std::hint::spin_loop();
-            } else if turns < SPINS + YIELDS {
+            } else if iterations < SPINS + YIELDS {
                 thread::yield_now();
             } else {
                 let mut bed = shared.bed.lock().unwrap_or_else(PoisonError::into_inner);
                 shared.sleepers.fetch_add(1, Ordering::SeqCst);
-                while shared.epoch.load(Ordering::SeqCst) == seen {
+                while shared.epoch.load(Ordering::SeqCst) == last {
                     bed = shared.wake.wait(bed).unwrap_or_else(PoisonError::into_inner);
                 }
                 shared.sleepers.fetch_sub(1, Ordering::SeqCst);
             }
         }
-        seen = seen.wrapping_add(1);
+        last = last.wrapping_add(1);
         if shared.leave.load(Ordering::SeqCst) {
             return;
         }

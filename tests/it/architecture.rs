@@ -196,7 +196,7 @@ fn place(file: &Path) -> Option<(String, usize)> {
 
 /// Tests of a module may take what they need to be tests.
 fn is_test(file: &Path) -> bool {
-    file.iter().any(|part| ["tests", "tests.rs", "trials.rs"].iter().any(|test| part == *test))
+    file.iter().any(|part| ["tests", "tests.rs", "samples.rs"].iter().any(|test| part == *test))
         && file.strip_prefix(project("src/models/grains")).is_err()
 }
 

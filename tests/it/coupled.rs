@@ -11,7 +11,7 @@ use bedload::result::Profile;
 use bedload::result::quantity as q;
 use serde_json::Value;
 
-use crate::grains::said;
+use crate::grains::written;
 use crate::support::Scratch;
 
 /// A short piece of the narrow flume.
@@ -90,7 +90,7 @@ fn a_flume_that_is_killed_goes_on_to_the_same_bits() {
     }
     assert!(kills > 0, "no run was killed");
     scratch.bedload(case(&[&resumed[..], &["--threads", "2"]].concat())).exits(0);
-    let (mut found, mut expected) = (said(&scratch, "out"), said(&scratch, "whole"));
+    let (mut found, mut expected) = (written(&scratch, "out"), written(&scratch, "whole"));
     for files in [&mut found, &mut expected] {
         files.retain(|name, _| name.extension().is_some_and(|e| e == "csv") || name.ends_with("motion.json"));
     }
@@ -121,8 +121,8 @@ fn what_few_samples_tell_has_no_error_and_ends_no_run() {
         scratch.bedload(words.into_iter().chain(more.iter().flat_map(|set| ["--set", *set]))).exits(0).out
     };
     for (out, duration) in [("one", "discrete.duration=0.1 s"), ("few", "discrete.duration=1 s")] {
-        let said = run(&[duration, "discrete.known_to=1"], out);
-        assert!(said.contains("error unknown: too few samples") && !said.contains('±'), "{said}");
+        let reported = run(&[duration, "discrete.known_to=1"], out);
+        assert!(reported.contains("error unknown: too few samples") && !reported.contains('±'), "{reported}");
         let summary = scratch.summary(out);
         for name in ["transport_rate_m2_s", "bed_level_m", "shields_turbulent", "shields", "u_star_m_s"] {
             let reported = &summary["results"][name];
@@ -158,7 +158,7 @@ fn grains_that_give_nothing_back_fall_and_flow() {
 }
 
 #[test]
-fn a_deep_bed_at_rest_is_held_and_the_accounts_close() {
+fn a_deep_bed_at_rest_is_frozen_and_the_balances_close() {
     let scratch = Scratch::new();
     let run = |more: &[&str]| {
         let sets = [
@@ -177,10 +177,10 @@ fn a_deep_bed_at_rest_is_held_and_the_accounts_close() {
     assert_eq!(number(&never, "held_below_m"), Some(0.0));
     // To look at the layers changes nothing.
     assert_eq!(number(&free, "transport_rate_m2_s"), number(&never, "transport_rate_m2_s"));
-    let held = run(&["discrete.hold_creep=0.5"]);
-    assert!(number(&held, "held_below_m").unwrap() >= 6e-3, "{held}");
-    assert!(number(&held, "transport_rate_m2_s").unwrap() > 0.0);
-    for balance in held["balances"].as_array().unwrap() {
+    let frozen = run(&["discrete.hold_creep=0.5"]);
+    assert!(number(&frozen, "held_below_m").unwrap() >= 6e-3, "{frozen}");
+    assert!(number(&frozen, "transport_rate_m2_s").unwrap() > 0.0);
+    for balance in frozen["balances"].as_array().unwrap() {
         assert!(balance["relative"].as_f64().unwrap().abs() < 1e-12, "{balance}");
     }
 }

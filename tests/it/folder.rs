@@ -98,11 +98,11 @@ fn other_values_do_not_replace_a_run_unless_forced() {
     let scratch = Scratch::new();
     run(&scratch, &[]).exits(0);
     let before = scratch.snapshot("out");
-    let said = run(&scratch, &["--set", OTHER]).exits(2);
-    assert!(said.err.contains("holds a run of exact_1d_aussillous with other values"), "{}", said.err);
-    assert!(said.err.contains("--force") && said.out.is_empty());
-    let said = scratch.bedload(["run", "exact_1d_bagnold", "--out", "out", "--resume", "--json"]).exits(2);
-    assert_eq!(said.json()["error"]["code"], "other-case");
+    let reported = run(&scratch, &["--set", OTHER]).exits(2);
+    assert!(reported.err.contains("holds a run of exact_1d_aussillous with other values"), "{}", reported.err);
+    assert!(reported.err.contains("--force") && reported.out.is_empty());
+    let reported = scratch.bedload(["run", "exact_1d_bagnold", "--out", "out", "--resume", "--json"]).exits(2);
+    assert_eq!(reported.json()["error"]["code"], "other-case");
     assert!(scratch.snapshot("out") == before, "a refused run touched the old one");
     run(&scratch, &["--set", OTHER, "--force"]).exits(0);
     assert!(scratch.read("out/case.toml").contains("cells = 50"));
@@ -136,8 +136,8 @@ fn what_bedload_did_not_write_is_never_replaced() {
         prepare(&scratch);
         let before = scratch.snapshot("out");
         for flags in [&[] as &[&str], &["--force"], &["--resume"], &["--force", "--set", OTHER]] {
-            let said = run(&scratch, flags).exits(2).err;
-            assert!(said.contains("was not written by bedload") && said.contains(entry), "{entry}: {said}");
+            let reported = run(&scratch, flags).exits(2).err;
+            assert!(reported.contains("was not written by bedload") && reported.contains(entry), "{entry}: {reported}");
             assert!(scratch.snapshot("out") == before, "{entry} {flags:?} touched the folder");
         }
         assert_eq!(scratch.names("."), ["out"], "{entry}");
@@ -158,8 +158,11 @@ fn an_unfinished_run_waits_for_a_decision() {
             run(&scratch, &[]).exits(0);
             set_status(&scratch, status);
             let before = scratch.snapshot("out");
-            let said = run(&scratch, &[]).exits(2).err;
-            assert!(said.contains("unfinished") && said.contains("--resume") && said.contains("--force"), "{said}");
+            let reported = run(&scratch, &[]).exits(2).err;
+            assert!(
+                reported.contains("unfinished") && reported.contains("--resume") && reported.contains("--force"),
+                "{reported}"
+            );
             assert!(scratch.snapshot("out") == before);
             run(&scratch, &["--set", OTHER, "--resume"]).exits(2);
             run(&scratch, &[decision]).exits(0);
@@ -184,10 +187,10 @@ fn a_failed_run_says_why_with_numbers_and_without_nan() {
         let found = text.split(|c: char| !c.is_alphanumeric()).find(|w| w.eq_ignore_ascii_case("nan") || *w == "inf");
         assert_eq!(found, None, "{}", file.display());
     }
-    let said = run(&scratch, &["--set", steep]).exits(2).err;
-    assert!(said.contains("unfinished"), "{said}");
-    let said = run(&scratch, &["--set", steep, "--force"]).exits(3);
-    assert!(said.err.starts_with("failed: the whole bed moves") && said.out.is_empty(), "{}", said.err);
+    let reported = run(&scratch, &["--set", steep]).exits(2).err;
+    assert!(reported.contains("unfinished"), "{reported}");
+    let reported = run(&scratch, &["--set", steep, "--force"]).exits(3);
+    assert!(reported.err.starts_with("failed: the whole bed moves") && reported.out.is_empty(), "{}", reported.err);
     // The limit of the hint is sharp.
     run(&scratch, &["--set", "flow.pressure_gradient=158.66 Pa/m", "--force"]).exits(0);
     run(&scratch, &["--set", "flow.pressure_gradient=158.67 Pa/m", "--force"]).exits(3);

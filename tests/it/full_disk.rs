@@ -7,7 +7,7 @@ use std::process::Stdio;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use super::grains::{case, said};
+use super::grains::{case, written};
 use crate::support::{Answer, Scratch};
 
 /// Two small points and one whose profile is some megabytes.
@@ -52,7 +52,7 @@ fn broken(scratch: &Scratch, whole: usize) -> usize {
 fn a_run_keeps_its_checkpoint() {
     let scratch = Scratch::new();
     scratch.bedload(case(&["--out", "whole", "--checkpoint", "0.01"])).exits(0);
-    let (whole, size) = (said(&scratch, "whole"), largest(&scratch, "whole"));
+    let (whole, size) = (written(&scratch, "whole"), largest(&scratch, "whole"));
     let limit = broken(&scratch, size);
     // The disk is still full: from the start, or after the run has gone on for a while.
     let resume = case(&["--out", "out", "--resume", "--checkpoint", "0.01"]);
@@ -67,14 +67,14 @@ fn a_run_keeps_its_checkpoint() {
     let error = again(limit);
     assert!(error.contains("; out keeps the last checkpoint\n  free some space and go on with --resume"), "{error}");
     scratch.bedload(&resume).exits(0);
-    assert!(said(&scratch, "out") == whole, "the run that went on differs");
+    assert!(written(&scratch, "out") == whole, "the run that went on differs");
 }
 
 #[test]
 fn a_run_over_another_one_keeps_its_checkpoint_beside() {
     let scratch = Scratch::new();
     scratch.bedload(case(&["--out", "whole", "--checkpoint", "0.01"])).exits(0);
-    let (whole, size) = (said(&scratch, "whole"), largest(&scratch, "whole"));
+    let (whole, size) = (written(&scratch, "whole"), largest(&scratch, "whole"));
     let limit = broken(&scratch, size);
     fs::remove_dir_all(scratch.path("out")).unwrap();
     scratch.bedload(["run", "exact_1d_bagnold", "--out", "out", "--quiet"]).exits(0);
@@ -89,7 +89,7 @@ fn a_run_over_another_one_keeps_its_checkpoint_beside() {
     assert!(error.ends_with(&expected), "{error}");
     assert!(scratch.snapshot("out") == before, "the run that was there is not");
     scratch.bedload(case(&["--out", &beside, "--resume"])).exits(0);
-    assert!(said(&scratch, &beside) == whole, "the run that went on differs");
+    assert!(written(&scratch, &beside) == whole, "the run that went on differs");
 }
 
 #[test]
@@ -109,8 +109,8 @@ fn a_study_keeps_its_finished_points() {
     let error = limited(&scratch, limit, &study("--resume")).exits(1).err;
     assert!(error.contains("; s keeps 2 finished points"), "{error}");
     assert!(scratch.snapshot("s/points") == kept);
-    let said = scratch.shell(&format!("exec \"$BEDLOAD\" {}", study("--resume"))).exits(0).out;
-    assert!(said.contains("3 points, 3 done (2 before)"), "{said}");
+    let reported = scratch.shell(&format!("exec \"$BEDLOAD\" {}", study("--resume"))).exits(0).out;
+    assert!(reported.contains("3 points, 3 done (2 before)"), "{reported}");
     let after = scratch.snapshot("s/points");
     assert!(kept.iter().all(|(file, content)| after.get(file) == Some(content)), "a finished point was run again");
     // Once more over the finished one: that stays, and nothing beside it.
@@ -127,8 +127,8 @@ fn a_study_keeps_its_finished_points() {
     );
     assert!(error.ends_with(&expected), "{error}");
     assert!(scratch.snapshot("small") == before);
-    let said = scratch.shell(&format!("exec \"$BEDLOAD\" {SWEEP} --out {beside} --resume")).exits(0).out;
-    assert!(said.contains("3 points, 3 done (2 before)"), "{said}");
+    let reported = scratch.shell(&format!("exec \"$BEDLOAD\" {SWEEP} --out {beside} --resume")).exits(0).out;
+    assert!(reported.contains("3 points, 3 done (2 before)"), "{reported}");
     // Where no point is finished there is nothing to keep.
     limited(&scratch, 1, &format!("{SWEEP} --out none")).exits(1);
     assert!(!scratch.path("none").exists());
@@ -151,12 +151,13 @@ fn a_disk_that_fills_keeps_the_points_that_fit() {
             "mount -t tmpfs -o {full} none disk; cd disk; \"$BEDLOAD\" {sweep}; echo code $?; \
              mount -o remount,size=50m,nr_inodes=10000 \"$PWD\"; \"$BEDLOAD\" {sweep} --resume"
         );
-        let said = scratch.shell(&format!("exec unshare -m sh -c '{}'", inside.replace('\'', "'\\''"))).exits(0);
-        assert!(said.out.starts_with("code 1\n"), "{full}: {}{}", said.out, said.err);
-        let kept = said.err.split("; s keeps ").nth(1).and_then(|rest| rest.split(' ').next()?.parse::<usize>().ok());
-        let kept = kept.unwrap_or_else(|| panic!("{full}: {}", said.err));
-        assert!((1..16).contains(&kept) && said.err.contains("--resume"), "{full}: {}", said.err);
-        assert!(said.out.contains(&format!("16 points, 16 done ({kept} before)")), "{full}: {}", said.out);
+        let reported = scratch.shell(&format!("exec unshare -m sh -c '{}'", inside.replace('\'', "'\\''"))).exits(0);
+        assert!(reported.out.starts_with("code 1\n"), "{full}: {}{}", reported.out, reported.err);
+        let kept =
+            reported.err.split("; s keeps ").nth(1).and_then(|rest| rest.split(' ').next()?.parse::<usize>().ok());
+        let kept = kept.unwrap_or_else(|| panic!("{full}: {}", reported.err));
+        assert!((1..16).contains(&kept) && reported.err.contains("--resume"), "{full}: {}", reported.err);
+        assert!(reported.out.contains(&format!("16 points, 16 done ({kept} before)")), "{full}: {}", reported.out);
     }
 }
 

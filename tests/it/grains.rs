@@ -45,8 +45,8 @@ fn interrupt(child: &Child) {
     Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
 }
 
-/// Everything that a run says, without what may differ between two identical runs: times, and who ran it when.
-pub fn said(scratch: &Scratch, folder: &str) -> BTreeMap<PathBuf, String> {
+/// Everything that a run wrote, without what may differ between two identical runs: times, and who ran it when.
+pub fn written(scratch: &Scratch, folder: &str) -> BTreeMap<PathBuf, String> {
     let mut files = BTreeMap::new();
     for (path, bytes) in scratch.snapshot(folder) {
         let name = path.file_name().unwrap().to_str().unwrap().to_owned();
@@ -67,7 +67,7 @@ pub fn said(scratch: &Scratch, folder: &str) -> BTreeMap<PathBuf, String> {
 fn undisturbed(scratch: &Scratch) -> (BTreeMap<PathBuf, String>, Duration) {
     let begin = Instant::now();
     scratch.bedload(case(&["--out", "whole", "--checkpoint", "0"])).exits(0);
-    let whole = said(scratch, "whole");
+    let whole = written(scratch, "whole");
     assert_eq!(whole.keys().filter(|name| name.extension().is_some_and(|e| e == "vtp")).count(), 4);
     assert!(!scratch.path("whole/checkpoint.bin").exists(), "no checkpoint was asked for");
     (whole, begin.elapsed())
@@ -88,7 +88,7 @@ fn checkpoints_seldom_often_or_never_and_threads_change_no_bit() {
     for (every, threads) in [("0.01", "1"), ("0.05", "2")] {
         let out = format!("out-{every}");
         scratch.bedload(case(&["--out", &out, "--checkpoint", every, "--threads", threads])).exits(0);
-        let mut found = said(&scratch, &out);
+        let mut found = written(&scratch, &out);
         // The number of threads is part of the provenance, the rest is not.
         found.remove(&PathBuf::from("case.toml"));
         let mut expected = whole.clone();
@@ -115,7 +115,7 @@ fn ctrl_c_at_any_stage_keeps_all_that_was_done() {
     }
     assert!(stopped > 0, "no run was stopped");
     scratch.bedload(case(&["--out", "out", "--resume"])).exits(0);
-    same(&said(&scratch, "out"), &whole);
+    same(&written(&scratch, "out"), &whole);
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn kill_at_a_random_moment_loses_no_more_than_the_time_since_the_last_checkpoint
     }
     assert!(killed > 1, "killed {killed} times");
     scratch.bedload(case(&["--out", "out", "--resume"])).exits(0);
-    same(&said(&scratch, "out"), &whole);
+    same(&written(&scratch, "out"), &whole);
 }
 
 /// Kills a run as soon as it has a checkpoint.
@@ -217,7 +217,7 @@ fn a_run_that_fails_keeps_its_last_checkpoint() {
 }
 
 #[test]
-fn pictures_for_paraview_are_whole_xml_with_a_point_a_grain() {
+fn frames_for_paraview_are_whole_xml_with_a_point_a_grain() {
     let scratch = Scratch::new();
     scratch.bedload(case(&["--out", "out"])).exits(0);
     let text = scratch.read("out/grains_00004.vtp");
@@ -242,5 +242,5 @@ fn pictures_for_paraview_are_whole_xml_with_a_point_a_grain() {
         assert_eq!(numbers.len(), components * points, "{name}");
     }
     let page = scratch.read("out/report.html");
-    assert!(page.contains("<figure id=\"picture\">") && page.contains("<circle"), "the report shows the grains");
+    assert!(page.contains("<figure id=\"drawing\">") && page.contains("<circle"), "the report shows the grains");
 }

@@ -57,8 +57,8 @@ fn ctrl_c_stops_marks_and_can_be_resumed() {
         assert_eq!(scratch.summary("out")["status"], "stopped");
         assert!(!scratch.path("out/profile.csv").exists(), "a profile of a stopped closed form");
         assert_eq!(scratch.names("."), ["out"]);
-        let said = scratch.bedload(LONG).exits(2).err;
-        assert!(said.contains("unfinished") && said.contains("--resume"), "{said}");
+        let reported = scratch.bedload(LONG).exits(2).err;
+        assert!(reported.contains("unfinished") && reported.contains("--resume"), "{reported}");
         return;
     }
     panic!("the run was done before Ctrl-C five times");
@@ -84,8 +84,8 @@ fn ctrl_c_on_a_second_run_keeps_the_first() {
             Some(4) => {}
             code => panic!("exit code {code:?}"),
         }
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert!(said.contains("stopped") && said.contains("still there"), "{said}");
+        let reported = String::from_utf8(output.stderr).unwrap();
+        assert!(reported.contains("stopped") && reported.contains("still there"), "{reported}");
         assert_eq!(scratch.names("."), ["out"]);
         assert_eq!(scratch.snapshot("out").keys().collect::<Vec<_>>(), before.keys().collect::<Vec<_>>());
         assert_eq!(scratch.summary("out")["status"], "done");
@@ -153,8 +153,8 @@ fn a_kill_between_two_renames_loses_nothing() {
         let before = scratch.snapshot(out);
         let old = out.replace("out", ".out.old-77");
         fs::rename(scratch.path(out), scratch.path(&old)).unwrap();
-        let said = scratch.bedload(run.iter().chain(&["--set", "grid.cells=50", "--json"])).exits(2).json();
-        assert_eq!(said["error"]["code"], "other-case");
+        let reported = scratch.bedload(run.iter().chain(&["--set", "grid.cells=50", "--json"])).exits(2).json();
+        assert_eq!(reported["error"]["code"], "other-case");
         assert!(scratch.snapshot(out) == before && !scratch.path(&old).exists(), "{out}");
         // A folder that is there is not replaced by an older one.
         fs::create_dir(scratch.path(&old)).unwrap();
@@ -178,15 +178,15 @@ fn a_full_disk_keeps_the_old_run_and_leaves_nothing_half() {
     let most = largest(&scratch, "out") / 1024;
     for limit in [0, 1, 4, most / 8, most / 2, most - 1] {
         let full = format!("trap '' XFSZ; ulimit -f {limit}; exec \"$BEDLOAD\" run {CASE} --png");
-        let said = scratch.shell(&format!("{full} --out out")).exits(1);
-        assert!(said.out.is_empty() && said.err.contains(" failed: "), "{}", said.err);
+        let reported = scratch.shell(&format!("{full} --out out")).exits(1);
+        assert!(reported.out.is_empty() && reported.err.contains(" failed: "), "{}", reported.err);
         assert!(scratch.snapshot("out") == before, "limit {limit}: the old run is not intact");
-        let said = scratch.shell(&format!("{full} --out new/folder"));
-        assert_ne!(said.code, 0, "limit {limit}");
+        let reported = scratch.shell(&format!("{full} --out new/folder"));
+        assert_ne!(reported.code, 0, "limit {limit}");
         assert_eq!(scratch.names("."), ["out"], "limit {limit}");
-        let said = scratch.shell(&format!("mkdir mine; {full} --out mine --json"));
-        assert_ne!(said.code, 0, "limit {limit}");
-        assert_eq!(said.json()["status"], "failed");
+        let reported = scratch.shell(&format!("mkdir mine; {full} --out mine --json"));
+        assert_ne!(reported.code, 0, "limit {limit}");
+        assert_eq!(reported.json()["status"], "failed");
         assert!(scratch.names("mine").is_empty(), "limit {limit}: {:?}", scratch.names("mine"));
         fs::remove_dir(scratch.path("mine")).unwrap();
     }
@@ -211,8 +211,8 @@ fn a_reader_that_goes_away_is_no_error() {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         let output = scratch.command().args(arguments).stdout(writer).stderr(Stdio::piped()).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!((output.status.code(), said.as_str()), (Some(0), ""), "{arguments:?}");
+        let reported = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), reported.as_str()), (Some(0), ""), "{arguments:?}");
     }
 }
 
@@ -226,8 +226,8 @@ fn a_full_standard_output_is_an_error_without_a_panic() {
     for arguments in [&["list"] as &[&str], &["schema"], &["check", CASE, "--json"], &["check", "nothing", "--json"]] {
         let mut command = scratch.command();
         let output = command.args(arguments).stdout(full.try_clone().unwrap()).stderr(Stdio::piped()).output().unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {said}");
-        assert!(!said.contains("bug"), "{said}");
+        let reported = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}: {reported}");
+        assert!(!reported.contains("bug"), "{reported}");
     }
 }

@@ -1,4 +1,4 @@
-//! One writer at a time: who comes second is told who is there, and no folder is ever mixed from two.
+//! One writer at a time: the second process is refused, with the id of the first, and no folder is ever mixed from two.
 #![cfg(unix)]
 
 use std::fs;
@@ -37,9 +37,9 @@ fn wait_for(scratch: &Scratch, file: &str) {
     }
 }
 
-/// What the second process is told.
+/// What is reported to the second process.
 #[track_caller]
-fn told(scratch: &Scratch, arguments: &[&str]) -> String {
+fn refused(scratch: &Scratch, arguments: &[&str]) -> String {
     let answer =
         scratch.bedload(arguments.iter().filter(|word| **word != "--quiet").chain(&["--json"])).exits(2).json();
     assert_eq!(answer["error"]["code"], "in-use", "{arguments:?}: {answer}");
@@ -68,11 +68,11 @@ fn the_second_process_is_told_who_holds_the_folder() {
             if verb[0] == "compare" && flags.contains(&"--resume") {
                 continue;
             }
-            let message = told(&scratch, &[verb, flags].concat());
+            let message = refused(&scratch, &[verb, flags].concat());
             assert!(message.starts_with(&name) && message.ends_with('Z'), "{message}");
         }
     }
-    let message = told(&scratch, &["report", "out"]);
+    let message = refused(&scratch, &["report", "out"]);
     assert!(message.starts_with(&name), "{message}");
     let error = scratch.bedload(SWEEP.iter().chain(&["--out", "out"])).exits(2).err;
     assert!(error.contains("--out"), "{error}");
@@ -106,16 +106,16 @@ fn studies_hold_their_points_and_comparisons_their_folder() {
         sleep(Duration::from_millis(1));
     };
     for out in ["s", &point, "s/points/0123456789abcdef"] {
-        told(&scratch, &[&SWEEP[..], &["--out", out, "--force"]].concat());
-        told(&scratch, &["run", "exact_1d_bagnold", "--out", out, "--force"]);
+        refused(&scratch, &[&SWEEP[..], &["--out", out, "--force"]].concat());
+        refused(&scratch, &["run", "exact_1d_bagnold", "--out", out, "--force"]);
     }
-    told(&scratch, &["report", &point]);
+    refused(&scratch, &["report", &point]);
     child.kill().unwrap();
     child.wait().unwrap();
     let mut child = start(&scratch, &["compare", "long.toml", "long.toml", "--out", "c"]);
     wait_for(&scratch, "c");
-    told(&scratch, &["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed", "--out", "c"]);
-    told(&scratch, &["run", "exact_1d_bagnold", "--out", "c"]);
+    refused(&scratch, &["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed", "--out", "c"]);
+    refused(&scratch, &["run", "exact_1d_bagnold", "--out", "c"]);
     child.kill().unwrap();
     child.wait().unwrap();
     scratch.bedload(["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed", "--out", "c", "--quiet"]).exits(0);
@@ -130,7 +130,7 @@ fn a_lock_is_that_of_the_system_and_not_the_file() {
         scratch.write(file, "bedload 77 2026-01-02T03:04:05Z\n");
         let held = fs::File::open(scratch.path(file)).unwrap();
         held.lock().unwrap();
-        let message = told(&scratch, &arguments);
+        let message = refused(&scratch, &arguments);
         assert!(
             message.ends_with(" is in use: process 77 has been writing it since 2026-01-02T03:04:05Z"),
             "{message}"
@@ -138,10 +138,10 @@ fn a_lock_is_that_of_the_system_and_not_the_file() {
         drop(held);
         scratch.bedload(arguments).exits(0);
         assert!(!scratch.path(file).exists());
-        // One that says nothing of its holder holds, too.
+        // One that names no holder counts, too.
         let held = fs::File::create(scratch.path(file)).unwrap();
         held.lock().unwrap();
-        assert!(told(&scratch, &arguments).ends_with(" is in use: another process is writing it"));
+        assert!(refused(&scratch, &arguments).ends_with(" is in use: another process is writing it"));
         drop(held);
         // A file of somebody that has this name stays.
         scratch.write(file, "mine");
@@ -159,7 +159,7 @@ fn a_lock_is_that_of_the_system_and_not_the_file() {
 #[test]
 fn no_folder_is_mixed_from_two() {
     let scratch = Scratch::new();
-    let (mut done, mut told) = (0, 0);
+    let (mut done, mut refused) = (0, 0);
     for race in 0..24 {
         let cells = |i: usize| 1000 * (i + 1) + race;
         let mut processes = Vec::new();
@@ -182,7 +182,7 @@ fn no_folder_is_mixed_from_two() {
                 Some(2) => {
                     let code = answer["error"]["code"].as_str().unwrap();
                     assert!(["in-use", "other-case"].contains(&code), "{answer}");
-                    told += usize::from(code == "in-use");
+                    refused += usize::from(code == "in-use");
                 }
                 code => panic!("{code:?}: {answer}"),
             }
@@ -208,8 +208,8 @@ fn no_folder_is_mixed_from_two() {
             fs::remove_dir_all(scratch.path("deep")).unwrap();
         }
     }
-    println!("{done} done, {told} told");
-    assert!(done >= 24 && told > 0, "{done} done, {told} told: no race");
+    println!("{done} done, {refused} refused");
+    assert!(done >= 24 && refused > 0, "{done} done, {refused} refused: no race");
 }
 
 #[test]

@@ -111,8 +111,8 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
     let page = report_html(&Page {
         summary: &summary,
         figures: &figures,
-        picture: None,
-        motion: None,
+        drawing: None,
+        animation: None,
         statement: &outcome.statement,
         case_toml: &resolved,
         notes: &[],

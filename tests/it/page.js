@@ -32,7 +32,7 @@ function legends(svg) {
   return { counts, pressed };
 }
 
-async function film(figure) {
+async function animation(figure) {
   const [canvas, button, slider, clock] = ["canvas", "button", "input", "output"].map(name => figure.querySelector(name));
   const colours = () => {
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -43,13 +43,13 @@ async function film(figure) {
   for (let i = 0; i < 50 && clock.textContent === begin; i++) await frame();
   const later = clock.textContent;
   button.click();
-  const said = button.textContent;
+  const reported = button.textContent;
   const stopped = clock.textContent;
   await frame();
   const still = clock.textContent === stopped;
   slider.value = slider.max;
   slider.dispatchEvent(new Event("input"));
-  return { begin, later, said, still, end: clock.textContent, colours: colours(), hidden: figure.hidden, picture: document.getElementById("picture")?.hidden };
+  return { begin, later, reported, still, end: clock.textContent, colours: colours(), hidden: figure.hidden, drawing: document.getElementById("drawing")?.hidden };
 }
 
 const answer = {};
@@ -62,12 +62,12 @@ try {
   answer.wide = root.scrollWidth > root.clientWidth;
   answer.plots = all("svg.plot").map(svg => {
     hover(svg, 0, 0.5, 0.4);
-    const found = { panels: all("rect.pane", svg).length, curves: all("g.curve", svg).length, said: shown(), crosses: crosses(svg) };
+    const found = { panels: all("rect.pane", svg).length, curves: all("g.curve", svg).length, reported: shown(), crosses: crosses(svg) };
     svg.dispatchEvent(new PointerEvent("pointerleave"));
     return { ...found, left: shown().length, legend: legends(svg) };
   });
-  const figure = document.getElementById("motion");
-  if (figure) answer.film = await film(figure);
+  const figure = document.getElementById("animation");
+  if (figure) answer.animation = await animation(figure);
 } catch (error) {
   answer.error = String(error);
 }

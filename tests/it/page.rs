@@ -1,4 +1,4 @@
-//! Pages in a browser, headless: they answer to a pointer, play their film, load nothing and complain of nothing, in light
+//! Pages in a browser, headless: they answer to a pointer, play their animation, load nothing and complain of nothing, in light
 //! and in dark. Without a Chromium on the path the tests say so and pass.
 
 use std::env;
@@ -68,10 +68,10 @@ fn examine(browser: &PathBuf, scratch: &Scratch, file: &str) -> [Value; 2] {
         assert!(console.is_empty(), "{file}: {console:?}");
         let (dom, console) = open(browser, scratch, "probed.html", dark);
         assert!(console.is_empty(), "{file}: {console:?}");
-        let said = dom.split_once("data-probe=\"").unwrap_or_else(|| panic!("{file}: no answer")).1;
-        let said = said.split_once('"').unwrap().0.replace("&quot;", "\"").replace("&nbsp;", " ");
+        let reported = dom.split_once("data-probe=\"").unwrap_or_else(|| panic!("{file}: no answer")).1;
+        let reported = reported.split_once('"').unwrap().0.replace("&quot;", "\"").replace("&nbsp;", " ");
         let answer: Value =
-            serde_json::from_str(&said.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")).unwrap();
+            serde_json::from_str(&reported.replace("&lt;", "<").replace("&gt;", ">").replace("&amp;", "&")).unwrap();
         assert_eq!(answer["error"], Value::Null, "{file}");
         assert_eq!(answer["dark"], dark, "{file}");
         assert_eq!(answer["loaded"], 0, "{file}: the page loads something");
@@ -79,7 +79,7 @@ fn examine(browser: &PathBuf, scratch: &Scratch, file: &str) -> [Value; 2] {
         assert!(answer["contrast"].as_f64().unwrap() > 7.0, "{file}: {}", answer["contrast"]);
         for plot in answer["plots"].as_array().unwrap() {
             assert!(plot["panels"].as_u64().unwrap() > 0 && plot["curves"].as_u64().unwrap() > 0, "{file}: {plot}");
-            assert!(!plot["said"].as_array().unwrap().is_empty() && plot["left"] == 0, "{file}: {plot}");
+            assert!(!plot["reported"].as_array().unwrap().is_empty() && plot["left"] == 0, "{file}: {plot}");
             if let Some(legend) = plot["legend"].as_object() {
                 let counts: Vec<u64> = legend["counts"].as_array().unwrap().iter().flat_map(Value::as_u64).collect();
                 assert!(counts[0] == 0 && counts[1] > 0 && counts[2] == 0, "{file}: {counts:?}");
@@ -119,12 +119,12 @@ fn profiles_answer_with_the_values_of_the_table_at_one_elevation_in_all_panels()
     let rows: Vec<[f64; 2]> = lines.map(|row| [0, column].map(|i| row[i].parse().unwrap())).collect();
     for answer in &answers {
         let plot = &answer["plots"][0];
-        let said = plot["said"][0].as_str().unwrap();
-        let z = 1e-3 * number(said, "elevation z = ");
+        let reported = plot["reported"][0].as_str().unwrap();
+        let z = 1e-3 * number(reported, "elevation z = ");
         let above = rows.iter().position(|row| row[0] > z).unwrap();
         let [[z0, u0], [z1, u1]] = [rows[above - 1], rows[above]];
         let expected = u0 + (z - z0) / (z1 - z0) * (u1 - u0);
-        let u = 1e-3 * number(said, "mixture");
+        let u = 1e-3 * number(reported, "mixture");
         assert!((u / expected - 1.0).abs() < 2e-3, "{u} where the table has {expected}");
         // One horizontal line in each panel, all at the same height.
         let crosses = plot["crosses"].as_array().unwrap();
@@ -138,21 +138,21 @@ fn profiles_answer_with_the_values_of_the_table_at_one_elevation_in_all_panels()
 }
 
 #[test]
-fn grains_move_while_the_film_plays_and_stop_when_it_is_paused() {
+fn grains_move_while_the_animation_plays_and_stop_when_it_is_paused() {
     let Some(browser) = chromium() else { return };
     let scratch = Scratch::new();
     scratch.bedload(["run", "grains_3d_bed_quick", "--out", "out", "--quiet"]).exits(0);
-    let motion: Value = serde_json::from_str(&scratch.read("out/motion.json")).unwrap();
-    let get = |name: &str| motion[name].as_f64().unwrap();
+    let recorded: Value = serde_json::from_str(&scratch.read("out/motion.json")).unwrap();
+    let get = |name: &str| recorded[name].as_f64().unwrap();
     let end = get("begin_s") + get("interval_s") * (get("pictures") - 1.0);
     for answer in examine(&browser, &scratch, "out/report.html") {
-        let film = &answer["film"];
-        let time = |name: &str| number(film[name].as_str().unwrap(), "t = ");
-        assert!((time("begin") - time("later")).abs() > 0.0, "it does not play: {film}");
-        assert!((time("end") - end).abs() < 1e-3, "{film}: {end} s");
-        assert_eq!((&film["said"], &film["still"]), (&Value::from("Play"), &Value::from(true)));
-        assert!(film["colours"].as_u64().unwrap() > 50, "the canvas is empty: {film}");
-        assert_eq!((&film["hidden"], &film["picture"]), (&Value::from(false), &Value::from(true)));
+        let animation = &answer["animation"];
+        let time = |name: &str| number(animation[name].as_str().unwrap(), "t = ");
+        assert!((time("begin") - time("later")).abs() > 0.0, "it does not play: {animation}");
+        assert!((time("end") - end).abs() < 1e-3, "{animation}: {end} s");
+        assert_eq!((&animation["reported"], &animation["still"]), (&Value::from("Play"), &Value::from(true)));
+        assert!(animation["colours"].as_u64().unwrap() > 50, "the canvas is empty: {animation}");
+        assert_eq!((&animation["hidden"], &animation["drawing"]), (&Value::from(false), &Value::from(true)));
     }
     assert!(scratch.read("out/report.html").len() < 3_000_000);
 }
@@ -169,7 +169,7 @@ fn pages_of_studies_and_comparisons_answer_too() {
         let file = format!("{folder}/report.html");
         for answer in examine(&browser, &scratch, &file) {
             assert!(!answer["plots"].as_array().unwrap().is_empty(), "{file}");
-            let linked = answer["plots"][0]["said"][0].as_str().unwrap().contains("elevation z = ");
+            let linked = answer["plots"][0]["reported"][0].as_str().unwrap().contains("elevation z = ");
             assert_eq!(linked, folder == "compare", "{file}: {}", answer["plots"][0]);
         }
         assert!(scratch.read(&file).len() < 200_000, "{file}");

@@ -1,4 +1,4 @@
-//! Where outputs go: a path is resolved before it is judged, and nothing that a person put anywhere is lost.
+//! Where outputs go: a path is resolved before it is checked, and nothing that a person put anywhere is lost.
 #![cfg(unix)]
 
 use std::fs;
@@ -68,8 +68,8 @@ fn a_way_over_a_folder_that_is_not_there_leads_where_it_leads() {
     fs::create_dir(scratch.path("mine")).unwrap();
     let before = scratch.snapshot(".");
     for out in ["new/../mine", "new/../mine/below", "mine/far/below"] {
-        let said = scratch.shell(&format!("trap '' XFSZ; ulimit -f 0; exec \"$BEDLOAD\" run {CASE} --out {out}"));
-        assert_eq!(said.code, 1, "{}", said.err);
+        let reported = scratch.shell(&format!("trap '' XFSZ; ulimit -f 0; exec \"$BEDLOAD\" run {CASE} --out {out}"));
+        assert_eq!(reported.code, 1, "{}", reported.err);
         assert!(scratch.snapshot(".") == before && scratch.names("mine").is_empty(), "{out}");
         assert!(!scratch.path("new").exists());
     }
@@ -149,7 +149,7 @@ fn what_a_person_puts_into_a_folder_on_its_way_stays() {
 }
 
 #[test]
-fn pictures_do_not_follow_a_link() {
+fn frames_do_not_follow_a_link() {
     let scratch = scratch();
     scratch.bedload(["run", "exact_1d_ouriemi", "--out", "out", "--quiet"]).exits(0);
     symlink("../precious/figures", scratch.path("out/figures")).unwrap();

@@ -62,7 +62,7 @@ pub fn problem<M: Model>(tables: &M::Tables) -> Result<M, CaseError> {
 fn solvers_are_private() {
     let paths = [
         "use bedload::models::coupled::exchange::Exchange;",
-        "use bedload::models::coupled::felt::Felt;",
+        "use bedload::models::coupled::fluid_at_grains::FluidAtGrains;",
         "use bedload::models::grains::bed::run;",
         "use bedload::models::laminar::two_fluid::Coupled;",
         "use bedload::models::laminar::mesh::Mesh;",
@@ -79,7 +79,7 @@ fn solvers_are_private() {
 
 #[test]
 fn the_insides_of_the_grain_engine_are_private() {
-    let paths = ["neighbours", "forces", "lanes", "tile", "contacts", "integrate", "checkpoint", "engine"]
+    let paths = ["neighbours", "forces", "simd", "tile", "contacts", "integrate", "checkpoint", "engine"]
         .map(|module| format!("use bedload::dem::{module};"));
     refused(&paths.each_ref().map(String::as_str), "error[E0603]");
 }

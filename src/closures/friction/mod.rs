@@ -73,8 +73,9 @@ pub trait FrictionLaw: Law {
     #[must_use]
     fn well_posed(&self) -> Option<(f64, f64)> {
         // n, and -C with it, is largest where mu' I is: near I_0 and below it.
-        let trial = |k: i32| self.half_way() * (0.02 * f64::from(k)).exp();
-        let best = (-400..400).map(trial).min_by(|a, b| self.well_posedness(*a).total_cmp(&self.well_posedness(*b)))?;
+        let candidate = |k: i32| self.half_way() * (0.02 * f64::from(k)).exp();
+        let best =
+            (-400..400).map(candidate).min_by(|a, b| self.well_posedness(*a).total_cmp(&self.well_posedness(*b)))?;
         if self.well_posedness(best) > 0.0 {
             return None;
         }

@@ -137,11 +137,11 @@ mod tests {
     #[test]
     fn a_smooth_profile_by_quadrature_at_order_two() {
         let phi = |z: f64| 0.55 / (1.0 + (10.0 * (z - 0.5)).exp());
-        let truth = 0.41 * simpson(|z| 1.0 - phi(z) / 0.6, 0.0, 1.0, 2000);
+        let exact = 0.41 * simpson(|z| 1.0 - phi(z) / 0.6, 0.0, 1.0, 2000);
         let error = |n: usize| {
             let faces = graded(0.0, 1.0, n, 0.5 / n as f64);
             let cells: Vec<f64> = faces.windows(2).map(|f| phi(0.5 * (f[0] + f[1]))).collect();
-            (lengths(LAW, &faces, &cells)[n] - truth).abs()
+            (lengths(LAW, &faces, &cells)[n] - exact).abs()
         };
         assert_relative_eq!((error(50) / error(100)).log2(), 2.0, epsilon = 0.1);
     }

@@ -21,7 +21,7 @@ pub(super) struct Implicit {
 }
 
 /// Newton's method needs 3 or 4 steps; an end, should round-off keep it moving.
-const MOST: usize = 20;
+const MAX_ITERATIONS: usize = 20;
 
 /// The step after one this small, relative to y, would be below round-off: each squares the error of the last.
 const LAST: f64 = 1e-8;
@@ -37,7 +37,7 @@ impl Implicit {
         let target = a * (re / scale).ln() + c;
         // Below the root: y = a is its least value, and y = target - a ln(y) > target - a ln(target) where y < target.
         let mut y = if target > 1.0 { f64::max(a, target - a * target.ln()) } else { a };
-        for _ in 0..MOST {
+        for _ in 0..MAX_ITERATIONS {
             let step = (target - y - a * y.ln()) * y / (y + a);
             y += step;
             if step.abs() <= LAST * y {

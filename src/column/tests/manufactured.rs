@@ -52,7 +52,7 @@ fn drag(z: f64) -> f64 {
 }
 
 /// Stress T at the top, and the force F(z) that the equation lacks.
-fn truth(form: ViscousForm, z: f64) -> (f64, f64) {
+fn exact(form: ViscousForm, z: f64) -> (f64, f64) {
     let (u, u_p, p, [l, dl], [eta, deta]) = (fluid(z), grains(z), phi(z), length(z), viscosity(z));
     let eps = [1.0 - p[0], -p[1], -p[2]];
     let mixture = form == ViscousForm::Mixture;
@@ -89,8 +89,8 @@ fn solve(form: ViscousForm, grid: Grid) -> FluidColumn {
         ..Setup::laminar(RHO, ETA)
     };
     let mut grains = medium(&grid, |z| phi(z)[0], |z| grains(z)[0], drag);
-    grains.force = grid.centres().iter().map(|&z| truth(form, z).1).collect();
-    let forcing = Forcing { drive: DRIVE, bottom: Bottom::NoSlip, top: Top::Stress(truth(form, 1.0).0) };
+    grains.force = grid.centres().iter().map(|&z| exact(form, z).1).collect();
+    let forcing = Forcing { drive: DRIVE, bottom: Bottom::NoSlip, top: Top::Stress(exact(form, 1.0).0) };
     steady(grid, setup, &grains, forcing).0
 }
 
@@ -110,7 +110,7 @@ fn fluid_and_effective_are_one_equation() {
     let (a, b) = (solve(ViscousForm::Fluid, graded(1.0, 40)), solve(ViscousForm::Effective, graded(1.0, 40)));
     assert_eq!(a.velocity(), b.velocity());
     // The mixture form is another one: with the force of the fluid form it gives another flow.
-    let force = |form| truth(form, 0.3).1;
+    let force = |form| exact(form, 0.3).1;
     assert!((force(ViscousForm::Mixture) - force(ViscousForm::Fluid)).abs() > 1e-2);
 }
 
@@ -122,7 +122,7 @@ fn stresses_at_the_faces() {
         assert_order_two(&[80, 160], |n| {
             let column = solve(form, uniform(1.0, n));
             let stresses = column.tau_viscous().iter().zip(column.tau_reynolds()).zip(column.grid().faces());
-            let off = |((tau, reynolds), z): ((&f64, &f64), &f64)| (tau + reynolds - truth(form, *z).0).abs();
+            let off = |((tau, reynolds), z): ((&f64, &f64), &f64)| (tau + reynolds - exact(form, *z).0).abs();
             stresses.skip(n / 10).map(off).fold(0.0, f64::max)
         });
     }

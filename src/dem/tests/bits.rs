@@ -1,8 +1,8 @@
 use super::{Domain, G, R, RHO, gas, go, hash, law};
 use crate::closures::contact::Tension;
 use crate::dem::checkpoint::{Reader, Writer};
-use crate::dem::lanes::Backend;
 use crate::dem::law::Lammps;
+use crate::dem::simd::Backend;
 use crate::dem::{Engine, Grain, LinearSpring, Settings, Wall};
 use crate::result::CheckpointError;
 

@@ -1,28 +1,29 @@
-use super::{Domain, G, R, Which, engine, gas, go, law, trial};
+use super::{Domain, G, R, Which, engine, gas, go, law, verification};
 use crate::closures::contact::Tension;
 use crate::dem::{Grain, Wall};
-use crate::models::grains::Trial;
-use crate::models::grains::trials::{clouds, found};
+use crate::models::grains::Verification;
+use crate::models::grains::verification::{clouds, found};
 use crate::result::quantity as q;
 
 #[test]
 fn momentum_and_angular_momentum_are_kept_to_round_off() {
-    let all = clouds::cluster(&Trial { velocity: 1.0, ..trial(Which::Cluster, 0.5, 30.0) }).unwrap();
+    let all = clouds::cluster(&Verification { velocity: 1.0, ..verification(Which::Cluster, 0.5, 30.0) }).unwrap();
     println!("{:?}", all.iter().map(|(q, x)| (q.name, *x)).collect::<Vec<_>>());
     assert!(found(Ok(all.clone()), &q::MOMENTUM_ERROR) < 1e-13);
     assert!(found(Ok(all), &q::ANGULAR_MOMENTUM_ERROR) < 1e-13);
 }
 
 #[test]
-fn the_accounts_of_energy_and_momentum_close_to_round_off() {
-    let all = clouds::ledger(&Trial { velocity: 1.0, ..trial(Which::Ledger, 0.9, 30.0) }, 100_000).unwrap();
+fn the_balances_of_energy_and_momentum_close_to_round_off() {
+    let all =
+        clouds::ledger(&Verification { velocity: 1.0, ..verification(Which::Ledger, 0.9, 30.0) }, 100_000).unwrap();
     println!("{:?}", all.iter().map(|(q, x)| (q.name, *x)).collect::<Vec<_>>());
     assert!(found(Ok(all.clone()), &q::LEDGER_ERROR) < 1e-12);
     assert!(found(Ok(all), &q::MOMENTUM_ERROR) < 1e-12);
 }
 
 #[test]
-fn what_fixed_grains_and_walls_take_is_in_the_account_of_momentum() {
+fn what_fixed_grains_and_walls_take_is_in_the_balance_of_momentum() {
     let mut grains = gas(60, 0.03, 0.2);
     for n in 0..25 {
         let at = [(f64::from(n % 5) + 0.5) * 6e-3, (f64::from(n / 5) + 0.5) * 6e-3, -R];

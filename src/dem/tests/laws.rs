@@ -1,12 +1,12 @@
-//! Details of the law, the list and the averages that no trial would notice.
+//! Details of the law, the list and the averages that no verification case would notice.
 
 use super::{Domain, G, R, RHO, engine, floor, gas, go, grain, law};
 use crate::closures::contact::Tension;
 use crate::dem::GrainBed;
 use crate::dem::average::Averages;
 use crate::dem::body::Nothing;
-use crate::dem::lanes::scalar::One;
 use crate::dem::law::{Contact, ContactLaw};
+use crate::dem::simd::scalar::One;
 use crate::dem::{Engine, Grain, Settings};
 use crate::model::read;
 
@@ -81,7 +81,7 @@ fn means_of_a_slice_are_those_of_its_grains() {
     averages.sample(&engine, 0, |_| [0.0; 3]);
     let profile = averages.profile();
     let phi = 4.0 * grains[0].mass() / RHO / (0.02 * 0.01);
-    let value = |mean: &[crate::dem::average::Mean]| mean[0].unwrap().0;
+    let value = |mean: &[Option<crate::result::Estimate>]| mean[0].unwrap().mean;
     approx::assert_relative_eq!(value(&profile.phi), phi, max_relative = 1e-12);
     approx::assert_relative_eq!(value(&profile.velocity), 2.0, max_relative = 1e-12);
     // <u'u'> = 1, <v'v'> = 2, <w'w'> = 1/4, <u'w'> = -1/2.
@@ -100,13 +100,13 @@ fn the_stress_of_a_contact_is_its_force_along_its_branch() {
     engine.forces(0.0);
     let mut averages = Averages::new(0.0, 0.04, 0.04, 0.01, RHO, 1);
     averages.sample(&engine, 0, |_| [0.0; 3]);
-    let (pressure, _) = averages.profile().pressure[0].unwrap();
+    let pressure = averages.profile().pressure[0].unwrap().mean;
     approx::assert_relative_eq!(pressure, push * branch / (0.04 * 0.01), max_relative = 1e-9);
 }
 
 #[test]
 fn the_flux_of_fluctuation_energy_is_that_of_its_grains_and_moves_with_them() {
-    // <w'v'^2>/2 by hand, and the same with a wind on top: what fluctuates does not see it.
+    // <w'v'^2>/2 by hand, and the same with a wind on top: the fluctuations do not depend on it.
     let velocities = [[1.0, 0.0, 0.5], [3.0, 2.0, -0.5], [1.0, -2.0, 1.0], [3.0, 0.0, -1.0]];
     let mean = [2.0, 0.0, 0.0];
     let by_hand: f64 = velocities
@@ -114,7 +114,7 @@ fn the_flux_of_fluctuation_energy_is_that_of_its_grains_and_moves_with_them() {
         .map(|v| 0.5 * v[2] * (0..3).map(|k| (v[k] - mean[k]) * (v[k] - mean[k])).sum::<f64>())
         .sum::<f64>()
         / 4.0;
-    let seen = |wind: [f64; 3]| {
+    let averaged = |wind: [f64; 3]| {
         let moved = |v: [f64; 3]| std::array::from_fn(|k| v[k] + wind[k]);
         let grains: Vec<Grain> =
             (0..4_u8).map(|i| grain([0.02 * f64::from(i), 0.0, 0.01], moved(velocities[usize::from(i)]))).collect();
@@ -124,10 +124,10 @@ fn the_flux_of_fluctuation_energy_is_that_of_its_grains_and_moves_with_them() {
         let volume = grains[0].mass() / RHO;
         averages.sample(&engine, 0, |i| std::array::from_fn(|k| 7e-6 - 3.0 * volume * engine.grains().velocity(i)[k]));
         let profile = averages.profile();
-        [profile.phi[0], profile.flux[0], profile.drag_loss[0], profile.temperature[0]].map(|x| x.unwrap().0)
+        [profile.phi[0], profile.flux[0], profile.drag_loss[0], profile.temperature[0]].map(|x| x.unwrap().mean)
     };
     for wind in [[0.0; 3], [5.0, -2.0, 1.5]] {
-        let [phi, flux, drag, temperature] = seen(wind);
+        let [phi, flux, drag, temperature] = averaged(wind);
         approx::assert_relative_eq!(flux, RHO * phi * by_hand, max_relative = 1e-11);
         approx::assert_relative_eq!(drag, 3.0 * phi * 3.0 * temperature, max_relative = 1e-11);
     }
@@ -146,9 +146,9 @@ fn contacts_take_what_their_force_does_on_the_approach_of_the_centres() {
         averages.sample(&engine, 0, |_| [0.0; 3]);
         let profile = averages.profile();
         let volume = 0.04 * 0.01;
-        approx::assert_relative_eq!(profile.contact_loss[0].unwrap().0, force * 0.4 / volume, max_relative = 1e-9);
+        approx::assert_relative_eq!(profile.contact_loss[0].unwrap().mean, force * 0.4 / volume, max_relative = 1e-9);
         // Both move with -0.1 in the mean, as their centre of mass: contacts carry no energy that fluctuates.
-        let carried = profile.flux[0].unwrap().0 * volume;
+        let carried = profile.flux[0].unwrap().mean * volume;
         assert!(carried.abs() < 1e-9 * force * branch, "{carried}");
     }
 }

@@ -11,8 +11,8 @@ use super::body::Nothing;
 use super::{Domain, Engine, Grain, LinearSpring, Point, Settings, Wall};
 use crate::closures::contact;
 use crate::closures::contact::Tension;
-use crate::models::grains::Trial;
-use crate::models::grains::case::Trial as Which;
+use crate::models::grains::Verification;
+use crate::models::grains::case::VerificationCase as Which;
 
 /// Radius \[m] and density [kg/m3] of the paper's grains.
 const R: f64 = 3e-3;
@@ -43,13 +43,13 @@ fn go(engine: &mut Engine<LinearSpring>, steps: usize) {
 
 /// A cloud of `n` grains of a range of sizes that fly about in a box of side `side`.
 fn gas(n: u64, side: f64, spread: f64) -> Vec<Grain> {
-    crate::models::grains::trials::clouds::cloud(n, side, spread, &Grain::at_rest([0.0; 3], R, RHO), 1.0)
+    crate::models::grains::verification::clouds::cloud(n, side, spread, &Grain::at_rest([0.0; 3], R, RHO), 1.0)
 }
 
-/// The trial of the paper's grains.
-fn trial(which: Which, e_n: f64, steps_per_contact: f64) -> Trial {
+/// A verification case of the paper's grains.
+fn verification(which: Which, e_n: f64, steps_per_contact: f64) -> Verification {
     let contact = contact::LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, e_n, tension: Tension::Cut };
-    Trial { trial: which, d: 2.0 * R, rho_p: RHO, velocity: 0.1, g: G, contact, steps_per_contact }
+    Verification { case: which, d: 2.0 * R, rho_p: RHO, velocity: 0.1, g: G, contact, steps_per_contact }
 }
 
 fn hash(engine: &Engine<LinearSpring>) -> u64 {

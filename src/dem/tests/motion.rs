@@ -1,8 +1,8 @@
-use super::{Domain, G, R, RHO, Which, engine, floor, go, grain, law, trial};
+use super::{Domain, G, R, RHO, Which, engine, floor, go, grain, law, verification};
 use crate::closures::contact::Tension;
 use crate::dem::{Grain, Wall};
-use crate::models::grains::Trial;
-use crate::models::grains::trials::{found, motion};
+use crate::models::grains::Verification;
+use crate::models::grains::verification::{found, motion};
 use crate::result::quantity as q;
 
 /// Overlap of a grain at rest on a floor \[m].
@@ -12,7 +12,7 @@ fn sunk() -> f64 {
 
 #[test]
 fn a_sliding_grain_rolls_after_two_sevenths_of_v_over_mu_g_with_five_sevenths_of_v() {
-    let all = motion::rolling(&Trial { velocity: 0.5, ..trial(Which::Rolling, 0.5, 50.0) }).unwrap();
+    let all = motion::rolling(&Verification { velocity: 0.5, ..verification(Which::Rolling, 0.5, 50.0) }).unwrap();
     println!("{:?}", all.iter().map(|(q, x)| (q.name, *x)).collect::<Vec<_>>());
     assert!(found(Ok(all.clone()), &q::ROLLING_TIME_ERROR).abs() < 6e-3);
     assert!(found(Ok(all), &q::ROLLING_VELOCITY_ERROR) < 4e-4);
@@ -21,7 +21,7 @@ fn a_sliding_grain_rolls_after_two_sevenths_of_v_over_mu_g_with_five_sevenths_of
 #[test]
 fn a_bouncing_grain_loses_its_share_of_height_at_each_impact() {
     // Stiff, so that the contact is short.
-    let mut stiff = Trial { velocity: 1.4, ..trial(Which::Bouncing, 0.8, 50.0) };
+    let mut stiff = Verification { velocity: 1.4, ..verification(Which::Bouncing, 0.8, 50.0) };
     (stiff.contact.k_n, stiff.contact.k_s) = (5e6, 2.5e6);
     let worst = found(motion::bouncing(&stiff), &q::BOUNCE_ERROR);
     println!("{worst:e}");
@@ -30,7 +30,7 @@ fn a_bouncing_grain_loses_its_share_of_height_at_each_impact() {
 
 #[test]
 fn three_stacked_grains_carry_each_other() {
-    let worst = found(motion::stack(&trial(Which::Stack, 0.5, 50.0)), &q::STACK_ERROR);
+    let worst = found(motion::stack(&verification(Which::Stack, 0.5, 50.0)), &q::STACK_ERROR);
     println!("{worst:e}");
     assert!(worst < 1e-9, "{worst}");
 }

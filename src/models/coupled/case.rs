@@ -157,16 +157,16 @@ pub struct CoupledDiscrete {
     /// Whether a time step beyond the limits of contacts and drag is taken nevertheless.
     #[serde(default)]
     pub force_time_step: bool,
-    /// The deep bed is held where a layer of one diameter goes less than this share of a diameter in hold_period, the mean of its
-    /// grains, and woken when the layer above moves more. Without it all grains are moved.
+    /// The deep bed is frozen where a layer of one diameter moves less than this share of a diameter in hold_period, the mean of its
+    /// grains, and released when the layer above moves more. Without it all grains are moved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
     pub hold_creep: Option<f64>,
-    /// Time between two looks at what may be held.
+    /// Time between two checks of what may be frozen.
     #[serde(default = "hold_period")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
     pub hold_period: f64,
-    /// Time from which on layers are held.
+    /// Time from which on layers are frozen.
     #[serde(default)]
     #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 1e5))]
     pub hold_after: f64,
@@ -186,7 +186,7 @@ pub struct CoupledDiscrete {
     #[serde(default)]
     #[schemars(extend("minimum" = 0, "maximum" = 1_000_000))]
     pub seed: u32,
-    /// Pictures of the grains for ParaView, evenly spaced over the duration.
+    /// Frames of the grains for ParaView, evenly spaced over the duration.
     #[serde(default)]
     #[schemars(extend("minimum" = 0, "maximum" = 10_000))]
     pub frames: u32,

@@ -6,10 +6,8 @@ use crate::closures::mixing_length::{BelowPacked, MixingLength};
 use crate::dem::GrainError;
 use crate::result::{NumericalError, SolveError};
 
-/// Samples of a mean that is looked at on the way.
+/// Samples of the mean that is checked during the run.
 const LATE: usize = 10;
-/// Column of a sample with the mean velocity of the water.
-const SPEED: usize = 6;
 
 /// What helps where the published integral leaves no turbulence in the lowest water.
 const DENSE: &str = "closures.mixing_length.below_packed = \"clipped\", or a closures.mixing_length.phi_max well above the solid fraction of the bed: over a bed denser than that, the lowest water has no turbulence and runs away";
@@ -20,14 +18,15 @@ impl Run<'_> {
     /// Refuses water that on the mean flows against the slope: over the last samples, or, at the `end`, over all that are
     /// averaged.
     pub(super) fn downhill(&self, end: bool) -> Result<(), NumericalError> {
-        let rows = &self.record.rows;
+        let samples = &self.record.samples;
         let first = self.record.transient().0;
-        let averaged = rows.iter().take_while(|row| (row[1] as usize) < first).count();
-        let late = (rows.len() >= LATE).then(|| rows.len() - LATE);
-        for from in late.into_iter().chain(end.then_some(averaged)).filter(|from| *from < rows.len()) {
-            let mean = rows[from..].iter().map(|row| row[SPEED]).sum::<f64>() / (rows.len() - from) as f64;
+        let averaged = samples.iter().take_while(|sample| sample.block < first).count();
+        let late = (samples.len() >= LATE).then(|| samples.len() - LATE);
+        for from in late.into_iter().chain(end.then_some(averaged)).filter(|from| *from < samples.len()) {
+            let mean =
+                samples[from..].iter().map(|sample| sample.velocity).sum::<f64>() / (samples.len() - from) as f64;
             if mean < 0.0 {
-                let start = if from > 0 { rows[from - 1][0] } else { 0.0 };
+                let start = if from > 0 { samples[from - 1].time } else { 0.0 };
                 let hint = if self.published() { DENSE } else { COARSE };
                 return Err(NumericalError::FlowsUphill {
                     velocity_m_s: mean,

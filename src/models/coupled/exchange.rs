@@ -12,17 +12,17 @@
 //! implicitly in u. At u = uⁿ that is β (u - v) of eq. (17)-(18) to round-off; β itself, a quotient of sums that pass zero
 //! with the slip, and that eddies and neighbouring cells make negative, is never formed, and nothing is clipped.
 //!
-//! The grains feel uⁿ for the whole period. So the impulse that the fluid lost, T_i = τ h n f, is not what they got,
-//! G_i = Σ share ∫ f_x dt/A. The difference goes into an account c_i, of which a quarter is paid back in each period:
+//! The fluid velocity at the grains is uⁿ for the whole period. So the impulse that the fluid lost, T_i = τ h n f, is not what they got,
+//! G_i = Σ share ∫ f_x dt/A. The difference is a residual impulse c_i, of which a quarter is returned in each period:
 //!
 //! ```text
 //! c' = c + T - G - c/4,    and the fluid gets c/4
 //! ```
 //!
-//! With a strong drag, a = τ β/(ε ρ_f) >> 1, the error of u then halves in each period; paying back all of it at once would make
+//! With a strong drag, a = τ β/(ε ρ_f) >> 1, the error of u then halves in each period; returning all of it at once would make
 //! it oscillate undamped. T - G - (change of c) is round-off for every cell. The share of fixed grains goes to the ground.
 
-use super::felt::Felt;
+use super::fluid_at_grains::FluidAtGrains;
 use crate::closures::drag::DallavalleGrain;
 use crate::column::{Balance, Bottom, ColumnError, FluidColumn, Forcing, Grid, Medium, Setup, Top, ViscousForm};
 use crate::dem::checkpoint::{Reader, Writer};
@@ -32,7 +32,7 @@ use crate::models::coupled::{Coupled, FluidScheme};
 use crate::numerics::sum::Sum;
 use crate::result::CheckpointError;
 
-/// Share of the account that is paid back in a period.
+/// Share of the residual impulse that is returned in a period.
 const RETURNED: f64 = 0.25;
 
 /// The fluid, what it takes from the grains, and what it owes them.
@@ -40,8 +40,8 @@ const RETURNED: f64 = 0.25;
 pub struct Exchange {
     /// the fluid
     pub column: FluidColumn,
-    /// the fluid as the grains feel it
-    pub felt: Felt,
+    /// fluid velocity and hindrance at the grains
+    pub at_grains: FluidAtGrains,
     law: DallavalleGrain,
     d: f64,
     medium: Medium,
@@ -53,9 +53,9 @@ pub struct Exchange {
     slope: [Vec<f64>; 2],
     /// impulse given to mobile grains in the last period, per area [Pa s]
     given: Vec<f64>,
-    /// the account c, per area [Pa s]
-    pub(super) account: Vec<f64>,
-    /// impulse taken less what was paid back, and given, so far, per area [Pa s]
+    /// the residual impulse c, per area [Pa s]
+    pub(super) residual: Vec<f64>,
+    /// impulse taken less what was returned, and given, so far, per area [Pa s]
     pub(super) totals: [Sum; 2],
     /// largest relative error of the momentum of the fluid in a step
     pub(super) worst: f64,
@@ -94,7 +94,7 @@ impl Exchange {
         let zero = || vec![0.0; cells];
         Ok(Self {
             column: FluidColumn::new(grid, setup)?,
-            felt: Felt::new(flow.drag, flow.drag.viscous(flow.nu(), bed.d), cells, height, grains),
+            at_grains: FluidAtGrains::new(flow.drag, flow.drag.viscous(flow.nu(), bed.d), cells, height, grains),
             law: flow.drag,
             d: bed.d,
             medium: Medium::clear(cells),
@@ -104,7 +104,7 @@ impl Exchange {
             drag: [zero(), zero()],
             slope: [zero(), zero()],
             given: zero(),
-            account: zero(),
+            residual: zero(),
             totals: [Sum::default(); 2],
             worst: 0.0,
             explicit: flow.fluid_scheme == FluidScheme::Explicit,
@@ -122,7 +122,7 @@ impl Exchange {
         &self.medium.phi
     }
 
-    /// Transport rate when the grains were last looked at [m2/s].
+    /// Transport rate when the grains were last averaged [m2/s].
     #[must_use]
     pub fn rate(&self) -> f64 {
         self.rate
@@ -140,7 +140,7 @@ impl Exchange {
         self.height
     }
 
-    /// Longest step of the grains that the drag on them bears, as they were last looked at \[s]: it is taken at the start of a step.
+    /// Longest step of the grains that the drag on them bears, as they were last averaged \[s]: it is taken at the start of a step.
     #[must_use]
     pub fn drag_limit(&self) -> f64 {
         2.0 / self.steepest
@@ -153,9 +153,9 @@ impl Exchange {
     }
 
     /// Averages the grains over the cells: solid fraction and velocity, drag and its slope at the present velocities, and the
-    /// impulse that the fluid gave since the last look, `dt` \[s] being the step of the grains.
-    pub fn look<C: ContactLaw>(&mut self, engine: &Engine<C>, dt: f64) {
-        let Self { medium, drag, slope, given, felt, volumes, .. } = self;
+    /// impulse that the fluid gave since the last average, `dt` \[s] being the step of the grains.
+    pub fn average<C: ContactLaw>(&mut self, engine: &Engine<C>, dt: f64) {
+        let Self { medium, drag, slope, given, at_grains, volumes, .. } = self;
         let cells = medium.phi.len();
         let grains = engine.grains();
         for sums in drag.iter_mut().chain(slope.iter_mut()).chain([given, &mut medium.phi, &mut medium.velocity]) {
@@ -169,14 +169,14 @@ impl Exchange {
             let (id, fixed) = (grains.ids[i], grains.is_fixed(i));
             let whole = 4.0 / 3.0 * std::f64::consts::PI * r * r * r;
             let (first, inside) = shares(z, r, self.height, cells, volumes);
-            let dragged = felt.drag(id, z, velocity);
+            let dragged = at_grains.drag(id, z, velocity);
             if !fixed {
                 self.rate += whole * velocity[0];
                 self.steepest = self.steepest.max(dragged.slope * grains.spins[i].0[3]);
             }
             // Of a mobile grain the part inside counts for all; of one in the bottom, only the part in the flow.
             let scale = if fixed { per_volume / whole } else { per_volume / inside };
-            let sum = felt.take(id) * dt;
+            let sum = at_grains.take(id) * dt;
             if fixed {
                 for (s, part) in volumes.iter().enumerate() {
                     medium.phi[first + s] += part * per_volume;
@@ -202,12 +202,12 @@ impl Exchange {
         }
         let given: f64 = self.given.iter().sum();
         self.totals[1].add(given);
-        for (account, given) in self.account.iter_mut().zip(&self.given) {
-            *account -= given;
+        for (residual, given) in self.residual.iter_mut().zip(&self.given) {
+            *residual -= given;
         }
     }
 
-    /// Advances the fluid by `period` \[s] in `steps` steps with the grains as they were last looked at.
+    /// Advances the fluid by `period` \[s] in `steps` steps with the grains as they were last averaged.
     ///
     /// # Errors
     /// [`ColumnError`] of the step that failed.
@@ -231,23 +231,23 @@ impl Exchange {
             }
         }
         let mut net = 0.0;
-        for (account, taken) in self.account.iter_mut().zip(taken) {
-            let back = RETURNED * *account;
+        for (residual, taken) in self.residual.iter_mut().zip(taken) {
+            let back = RETURNED * *residual;
             net += taken - back;
-            *account += taken - back;
+            *residual += taken - back;
         }
         self.totals[0].add(net);
-        self.feel();
+        self.update_grains();
         Ok(())
     }
 
-    /// The drag as the fluid meets it: D + b (u - uⁿ) around the velocity `before`, less `owed` [1/(m s)] of the account.
+    /// The drag as the fluid meets it: D + b (u - uⁿ) around the velocity `before`, less `owed` [1/(m s)] of the residual impulse.
     fn expand(&mut self, before: &[f64], owed: f64) {
-        let Self { medium, drag, slope, account, .. } = self;
+        let Self { medium, drag, slope, residual, .. } = self;
         for (i, u) in before.iter().enumerate() {
             medium.beta[i] = slope[0][i] + slope[1][i];
             let at_rest = medium.beta[i] * (u - medium.velocity[i]);
-            medium.force[i] = at_rest - (drag[0][i] + drag[1][i]) + owed * account[i];
+            medium.force[i] = at_rest - (drag[0][i] + drag[1][i]) + owed * residual[i];
         }
     }
 
@@ -257,15 +257,15 @@ impl Exchange {
     /// [`ColumnError`] if there is none.
     pub fn begin<C: ContactLaw>(&mut self, engine: &Engine<C>) -> Result<(), ColumnError> {
         for _ in 0..100 {
-            self.look(engine, 0.0);
-            self.account.fill(0.0);
+            self.average(engine, 0.0);
+            self.residual.fill(0.0);
             self.totals = [Sum::default(); 2];
-            self.feel();
-            self.look(engine, 0.0);
+            self.update_grains();
+            self.average(engine, 0.0);
             let before = self.column.velocity().to_vec();
             self.expand(&before, 0.0);
             self.column.step(&self.medium, &self.forcing, f64::INFINITY)?;
-            self.feel();
+            self.update_grains();
             let largest = self.column.velocity().iter().fold(0.0, |m: f64, u| m.max(u.abs()));
             let change = self.column.velocity().iter().zip(&before).fold(0.0, |m: f64, (u, v)| m.max((u - v).abs()));
             if change <= 1e-6 * largest {
@@ -275,12 +275,12 @@ impl Exchange {
         Ok(())
     }
 
-    /// Hands velocity and hindrance to the grains.
-    pub(super) fn feel(&mut self) {
+    /// Updates velocity and hindrance at the grains.
+    pub(super) fn update_grains(&mut self) {
         let cells = self.medium.phi.len();
-        self.felt.velocity[..cells].copy_from_slice(self.column.velocity());
+        self.at_grains.velocity[..cells].copy_from_slice(self.column.velocity());
         let (law, rho, d) = (self.law, self.column.setup().rho, self.d);
-        for (size, phi) in self.felt.size.iter_mut().zip(&self.medium.phi) {
+        for (size, phi) in self.at_grains.size.iter_mut().zip(&self.medium.phi) {
             *size = law.size(*phi, rho, d);
         }
         let faces = self.column.tau_reynolds().windows(2);
@@ -291,7 +291,7 @@ impl Exchange {
     pub fn save(&self, to: &mut Writer) {
         to.whole(self.medium.phi.len() as u64);
         to.number(self.height);
-        let state = [self.column.velocity(), &self.medium.phi, &self.account, &self.reynolds];
+        let state = [self.column.velocity(), &self.medium.phi, &self.residual, &self.reynolds];
         state.into_iter().flatten().for_each(|x| to.number(*x));
         for sum in self.totals {
             to.number(sum.value);
@@ -299,7 +299,7 @@ impl Exchange {
         }
         to.number(self.worst);
         to.number(self.rate);
-        self.felt.carried().for_each(|x| to.number(x));
+        self.at_grains.carried().for_each(|x| to.number(x));
     }
 
     /// Reads what [`Self::save`] wrote, for `grains` grains.
@@ -315,7 +315,7 @@ impl Exchange {
             return Err(WRONG);
         }
         let (mut velocity, mut reynolds) = (vec![0.0; cells], vec![0.0; cells]);
-        for values in [&mut velocity, &mut this.medium.phi, &mut this.account, &mut reynolds] {
+        for values in [&mut velocity, &mut this.medium.phi, &mut this.residual, &mut reynolds] {
             for x in values {
                 *x = from.number()?;
             }
@@ -326,10 +326,10 @@ impl Exchange {
         }
         this.worst = from.number()?;
         this.rate = from.number()?;
-        for word in this.felt.carried_mut() {
+        for word in this.at_grains.carried_mut() {
             *word = from.number()?.to_bits();
         }
-        this.feel();
+        this.update_grains();
         // The column knows its stresses only after a step.
         this.reynolds = reynolds;
         Ok(this)
@@ -342,7 +342,7 @@ impl Exchange {
         for part in [self.totals[0].total(), -self.totals[1].total()] {
             sum.add(part);
         }
-        self.account.iter().for_each(|c| sum.add(-c));
+        self.residual.iter().for_each(|c| sum.add(-c));
         let scale = self.totals[1].total().abs().max(self.totals[0].total().abs());
         if scale > 0.0 { sum.total() / scale } else { 0.0 }
     }

@@ -1,7 +1,7 @@
 //! Grains in a fluid: Maurin et al. (2015). The grains are those of [`crate::dem`], the fluid that of [`crate::column`].
 //!
 //! ```text
-//!  grains ─► exchange.look (averages: φ, drag, what was given) ─► exchange.advance (column) ─► felt ─► grains
+//!  grains ─► exchange.average ( φ, drag, what was given) ─► exchange.advance (column) ─► fluid_at_grains ─► grains
 //!                                                     record (samples, blocks) ─► outcome
 //! ```
 
@@ -10,15 +10,15 @@ pub mod case;
 mod direction;
 mod error;
 mod exchange;
-mod felt;
 mod figures;
-mod hold;
+mod fluid_at_grains;
+mod freeze;
 mod limits;
 mod outcome;
 mod problem;
 mod record;
 mod run;
-mod scene;
+mod start;
 mod study;
 #[cfg(test)]
 mod tests;
@@ -26,5 +26,5 @@ mod theory;
 
 pub use case::FluidScheme;
 pub use error::{CoupledError, CoupledFault};
-pub use problem::{Coupled, Surface};
+pub use problem::{Coupled, Freeze, Relief, Surface};
 use run::{equations, run};

@@ -1,15 +1,15 @@
 //! What a coupled run reports: profiles with their errors, transport rate, Shields numbers, balances.
 
-use super::hold::Hold;
+use super::freeze::FrozenBed;
+use super::record::Sample;
 use super::run::Run;
 use super::theory;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
 use crate::closures::drag::dallavalle_grain::RANGE as HINDRANCE_RANGE;
 use crate::dem::budget;
-use crate::dem::certainty::Known;
-use crate::dem::outcome::{bed_level, nothing, profile, set_mean};
+use crate::dem::outcome::{bed_level, nothing, profile};
 use crate::dem::stability;
-use crate::result::{Balance, Outcome, Results, Series, SolveError, Status, Validity, quantity as q};
+use crate::result::{Balance, Estimate, Outcome, Results, Series, SolveError, Status, Validity, quantity as q};
 
 /// Everything that a coupled run has to say.
 ///
@@ -20,11 +20,11 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let (first, over) = run.record.transient();
     let averages = run.averages.after(first);
     let mut averaged = averages.profile();
-    let resolved = run.record.resolved(first).is_ok();
-    if !resolved {
-        averaged = averaged.without_errors();
+    let resolved = run.record.resolved(first);
+    if let Err(why) = resolved {
+        averaged = averaged.without_errors(why);
     }
-    let blind = run.hold.as_ref().and_then(Hold::blind);
+    let blind = run.frozen.as_ref().and_then(FrozenBed::blind_below);
     if let Some(level) = blind {
         let below = averaged.z.iter().take_while(|z| **z < level).count();
         let columns = [&mut averaged.shear, &mut averaged.pressure, &mut averaged.flux, &mut averaged.contact_loss];
@@ -36,29 +36,29 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let stress = flow.stress_scale();
     let velocity = ((bed.rho_p / flow.rho_f - 1.0) * bed.g * bed.d).sqrt();
     let grain = std::f64::consts::PI / 6.0 * bed.d.powi(3);
-    let rate = run.record.mean(3, first);
-    let mut set = |quantity, known: Option<Known>, scale: f64| match known {
-        Some(known) => set_mean(&mut results, quantity, known.times(scale)),
+    let rate = run.record.mean(|sample| sample.transport_rate, first);
+    let level = run.record.mean(|sample| sample.level, first);
+    let mut set = |quantity, estimate: Option<Estimate>, scale: f64| match estimate {
+        Some(estimate) => results.set_mean(quantity, estimate.times(scale)),
         None => results.undefined(quantity, "nothing was sampled yet"),
     };
     set(&q::TRANSPORT_RATE, rate, 1.0);
     set(&q::TRANSPORT_RATE_DIMENSIONLESS, rate, 1.0 / (bed.d * velocity));
     set(&q::TRANSPORT_RATE_BEADS, rate, bed.size[1] / grain);
     set(&q::TRANSPORT_RATE_MASS, rate, bed.rho_p);
-    set(&q::BED_LEVEL, run.record.mean(5, first), 1.0);
-    set(&q::MEAN_VELOCITY, run.record.mean(6, first), 1.0);
+    set(&q::BED_LEVEL, level, 1.0);
+    set(&q::MEAN_VELOCITY, run.record.mean(|sample| sample.velocity, first), 1.0);
     // The largest of the mean stress; its error is that of the cell where it is.
     let largest = fluid.iter().map(|cell| cell[1]).reduce(|a, b| if b.mean > a.mean { b } else { a });
     set(&q::SHIELDS_TURBULENT, largest, 1.0 / stress);
-    let star = largest.filter(|known| known.mean > 0.0).map(|known| {
-        let u = (known.mean / flow.rho_f).sqrt();
-        Known { mean: u, error: known.error.map(|error| 0.5 * u * error / known.mean) }
+    let star = largest.filter(|stress| stress.mean > 0.0).map(|stress| {
+        let u = (stress.mean / flow.rho_f).sqrt();
+        Estimate { mean: u, stderr: stress.stderr.map(|error| 0.5 * u * error / stress.mean) }
     });
     set(&q::U_STAR, star, 1.0);
     let height = run.exchange.cell_height() * fluid.len() as f64;
-    let level = run.record.mean(5, first);
     let pull = flow.rho_f * bed.g * bed.beta.sin();
-    let depth = level.map(|known| Known { mean: height - known.mean, ..known });
+    let depth = level.map(|level| Estimate { mean: height - level.mean, ..level });
     set(&q::WATER_DEPTH, depth, 1.0);
     set(&q::SHIELDS_NOMINAL, depth, pull / stress);
     if let (Some(level), false) = (level, fluid.is_empty()) {
@@ -71,7 +71,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     if let Some((_, bulk)) = bed_level(&averaged) {
         results.set(&q::PHI_BULK, bulk);
     }
-    let start = run.record.rows.iter().find(|row| row[1] as usize >= first).map_or(0.0, |row| row[0]);
+    let start = run.record.samples.iter().find(|sample| sample.block >= first).map_or(0.0, |sample| sample.time);
     results.set(&q::TRANSIENT, start);
     results.set(&q::AVERAGED_TIME, run.time() - start);
     results.set(&q::TIME_STEP, run.engine.settings().dt);
@@ -79,8 +79,8 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     if limit.is_finite() {
         results.set(&q::TIME_STEP_RATIO, run.engine.settings().dt / limit);
     }
-    if let Some(hold) = &run.hold {
-        results.set(&q::HELD, hold.level());
+    if let Some(frozen) = &run.frozen {
+        results.set(&q::FROZEN_BELOW, frozen.level());
     }
     let drag = run.exchange.drag_limit();
     if drag.is_finite() {
@@ -92,10 +92,10 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let mut table = None;
     if let Some(mut made) = profile(bed, &averaged)? {
         let column = |k: usize| fluid.iter().map(|cell| Some(cell[k].mean)).collect::<Vec<_>>();
-        let errors = |k: usize| fluid.iter().map(|cell| cell[k].error.ok()).collect::<Vec<_>>();
-        let mixture = |((cell, phi), u): ((&[Known; 5], &crate::dem::average::Mean), &crate::dem::average::Mean)| {
-            let phi = phi.map_or(0.0, |(phi, _)| phi);
-            Some((1.0 - phi) * cell[0].mean + phi * u.map_or(0.0, |(u, _)| u))
+        let errors = |k: usize| fluid.iter().map(|cell| cell[k].stderr.ok()).collect::<Vec<_>>();
+        let mixture = |((cell, phi), u): ((&[Estimate; 5], &Option<Estimate>), &Option<Estimate>)| {
+            let phi = phi.map_or(0.0, |phi| phi.mean);
+            Some((1.0 - phi) * cell[0].mean + phi * u.map_or(0.0, |u| u.mean))
         };
         let mixtures = fluid.iter().zip(&averaged.phi).zip(&averaged.velocity).map(mixture).collect();
         made.push(&q::U_FLUID, column(0))?;
@@ -105,9 +105,9 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
         made.push(&q::MIXING_LENGTH, column(3))?;
         made.push(&q::EDDY_VISCOSITY, column(4))?;
         for (value, error, means) in budget::columns(bed, &averages) {
-            made.push(value, means.iter().map(|mean| mean.map(|(x, _)| x)).collect())?;
+            made.push(value, means.iter().map(|mean| mean.map(|x| x.mean)).collect())?;
             if let Some(error) = error {
-                let errors = means.iter().map(|mean| mean.and_then(|(_, e)| e).filter(|_| resolved));
+                let errors = means.iter().map(|mean| mean.and_then(|x| x.stderr.ok()).filter(|_| resolved.is_ok()));
                 made.push(error, errors.collect())?;
             }
         }
@@ -117,18 +117,20 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
         table = Some(made);
     }
     let mut series = None;
-    if !run.record.rows.is_empty() {
-        let rows = |column: usize, scale: f64| run.record.rows.iter().map(|row| Some(scale * row[column])).collect();
-        let mut made = Series::new((0..run.record.rows.len()).map(|i| i as f64).collect())?;
-        made.push(&q::TIME, rows(0, 1.0))?;
-        made.push(&q::KINETIC_ENERGY, rows(2, 1.0))?;
-        made.push(&q::RATE_IN_TIME, rows(3, 1.0))?;
-        made.push(&q::SHIELDS_IN_TIME, rows(4, 1.0 / stress))?;
-        made.push(&q::LEVEL_IN_TIME, rows(5, 1.0))?;
+    let samples = &run.record.samples;
+    if !samples.is_empty() {
+        let column = |value: fn(&Sample) -> f64| samples.iter().map(|sample| Some(value(sample))).collect();
+        let shields = samples.iter().map(|sample| Some(1.0 / stress * sample.reynolds)).collect();
+        let mut made = Series::new((0..samples.len()).map(|i| i as f64).collect())?;
+        made.push(&q::TIME, column(|sample| sample.time))?;
+        made.push(&q::KINETIC_ENERGY, column(|sample| sample.kinetic_energy))?;
+        made.push(&q::RATE_IN_TIME, column(|sample| sample.transport_rate))?;
+        made.push(&q::SHIELDS_IN_TIME, shields)?;
+        made.push(&q::LEVEL_IN_TIME, column(|sample| sample.level))?;
         series = Some(made);
     }
-    let densest = averaged.phi.iter().flatten().map(|(phi, _)| *phi).fold(0.0, f64::max);
-    let deepest = run.engine.contacts().map(|seen| seen.ratio).fold(0.0, f64::max);
+    let densest = averaged.phi.iter().flatten().map(|phi| phi.mean).fold(0.0, f64::max);
+    let deepest = run.engine.contacts().map(|contact| contact.ratio).fold(0.0, f64::max);
     let mut validity = Vec::new();
     let mut warn = |closure: &str, variable: &str, value: f64, range: String| {
         validity.push(Validity { closure: closure.into(), variable: variable.into(), value, range, z_m: None });
@@ -142,7 +144,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     if let Some(level) = blind {
         warn(
             "contact/held",
-            "elevation below which contacts were held [m]",
+            "elevation below which contacts were frozen [m]",
             level,
             "stresses above it alone".to_owned(),
         );

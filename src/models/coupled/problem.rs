@@ -23,8 +23,8 @@ use crate::result::{CheckpointError, Failure, Figure, Outcome};
 pub struct Coupled {
     /// the grains, their bed and channel
     pub bed: GrainBed,
-    /// largest elevation of the fixed grains, and the step between elevations \[m]
-    pub relief: (f64, f64),
+    /// elevations of the fixed grains
+    pub relief: Relief,
     /// density of the fluid [kg/m3]
     pub rho_f: f64,
     /// viscosity of the fluid [Pa s]
@@ -47,12 +47,32 @@ pub struct Coupled {
     pub fluid_steps: u32,
     /// how it is stepped
     pub fluid_scheme: FluidScheme,
-    /// mean way of a layer that is held, in diameters, the time in which it is gone \[s], and the time from which on \[s]
-    pub hold: Option<[f64; 3]>,
+    /// how the deep bed is frozen, if it is
+    pub freeze: Option<Freeze>,
     /// time between two samples \[s]
     pub sample_period: f64,
     /// standard error of the transport rate, relative to it, with which the run ends
     pub known_to: Option<f64>,
+}
+
+/// When layers of the deep bed are frozen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Freeze {
+    /// mean displacement of a layer at rest in a period, in grain diameters
+    pub creep: f64,
+    /// time between two checks of the layers \[s]
+    pub period: f64,
+    /// time of the first check \[s]
+    pub after: f64,
+}
+
+/// Elevations of the fixed grains around their mean.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relief {
+    /// largest elevation \[m]
+    pub largest: f64,
+    /// step between elevations \[m]
+    pub step: f64,
 }
 
 /// Where the free surface is.
@@ -79,7 +99,7 @@ impl Coupled {
 }
 
 /// Most grains of a case.
-const MOST_GRAINS: f64 = 2e7;
+const MAX_GRAINS: f64 = 2e7;
 
 impl Model for Coupled {
     const INFO: ModelInfo = ModelInfo { name: "coupled", stochastic: true };
@@ -105,20 +125,21 @@ impl Model for Coupled {
         };
         let across = if flow.side_walls { (flow.width / d).floor() } else { flow.width / d };
         let count = bed.layers * (flow.length / d) * across.max(1.0);
-        let mut room = |path, name: &'static str, value: f64, least: f64, most: f64| {
+        let mut within = |path, name: &'static str, value: f64, least: f64, most: f64| {
             if !(least..=most).contains(&value) {
                 faults.push((path, BedFault::GrainRoom { name, value, least, most }));
             }
         };
-        room("flow.length", "flow.length", flow.length, 4.0 * d, 1e3);
-        room("flow.width", "flow.width", flow.width, if flow.side_walls { d } else { 4.0 * d }, 1e3);
-        room("bed.layers", "the number of mobile grains", count, 1.0, MOST_GRAINS);
-        let relief = (bed.relief.unwrap_or(d / 3.0), bed.relief_step.or(bed.relief).unwrap_or(d / 3.0));
+        within("flow.length", "flow.length", flow.length, 4.0 * d, 1e3);
+        within("flow.width", "flow.width", flow.width, if flow.side_walls { d } else { 4.0 * d }, 1e3);
+        within("bed.layers", "the number of mobile grains", count, 1.0, MAX_GRAINS);
+        let relief =
+            Relief { largest: bed.relief.unwrap_or(d / 3.0), step: bed.relief_step.or(bed.relief).unwrap_or(d / 3.0) };
         if bed.bottom == Bottom::Steps {
-            room("bed.relief", "bed.relief", relief.0, 0.0, d);
+            within("bed.relief", "bed.relief", relief.largest, 0.0, d);
         }
         let CoupledDiscrete { coupling_period, sample_period, duration, .. } = *discrete;
-        room("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
+        within("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
         if closures.side_wall != SideWall::None && !flow.side_walls {
             let fault = Fault::LawMismatch {
                 family: "side_wall".into(),
@@ -129,7 +150,7 @@ impl Model for Coupled {
             faults.push(("closures.side_wall.law", fault));
         }
         let (Only(contact), Only(drag)) = (closures.contact, closures.drag);
-        let mobile = if (1.0..=MOST_GRAINS).contains(&count) { count.round() as usize } else { 1 };
+        let mobile = if (1.0..=MAX_GRAINS).contains(&count) { count.round() as usize } else { 1 };
         Some(Self {
             bed: GrainBed {
                 d,
@@ -156,7 +177,11 @@ impl Model for Coupled {
             coupling_period,
             fluid_steps: discrete.fluid_steps,
             fluid_scheme: discrete.fluid_scheme,
-            hold: discrete.hold_creep.map(|creep| [creep, discrete.hold_period, discrete.hold_after]),
+            freeze: discrete.hold_creep.map(|creep| Freeze {
+                creep,
+                period: discrete.hold_period,
+                after: discrete.hold_after,
+            }),
             sample_period,
             known_to: discrete.known_to,
         })

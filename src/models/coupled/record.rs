@@ -1,21 +1,46 @@
 //! What is remembered of a run: samples, blocks of the fluid, and where the transient ends.
 
 use super::exchange::Exchange;
-use crate::dem::certainty::{Known, LEAST_BLOCKS, Unknown, of_blocks, of_series, resolved};
+use crate::dem::certainty::{MIN_BLOCKS, of_blocks, of_series, resolved};
 use crate::dem::checkpoint::{Reader, Saved, Writer};
-use crate::result::CheckpointError;
+use crate::result::{CheckpointError, Estimate, Unknown};
 
 /// Blocks of the whole duration.
 pub const BLOCKS: usize = 40;
-/// Numbers of blocks of which the one with the largest standard error tells it.
+/// Numbers of blocks of which the largest standard error is taken.
 const COUNTS: &[usize] = &[8, 12, 20];
 /// Columns of the fluid that are averaged.
 pub const FLUID: usize = 5;
-/// Columns of a sample.
-pub const WIDTH: usize = 7;
 
-/// One sample: time, block, kinetic energy, transport rate, largest Reynolds stress, bed level, mean velocity of the water.
-pub type Row = [f64; WIDTH];
+/// One sample of the run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// time \[s]
+    pub time: f64,
+    /// block of the duration
+    pub block: usize,
+    /// kinetic energy of the grains \[J]
+    pub kinetic_energy: f64,
+    /// transport rate [m2/s]
+    pub transport_rate: f64,
+    /// largest Reynolds stress \[Pa]
+    pub reynolds: f64,
+    /// bed level \[m]
+    pub level: f64,
+    /// mean velocity of the water [m/s]
+    pub velocity: f64,
+}
+
+impl Sample {
+    fn numbers(&self) -> [f64; 7] {
+        let Self { time, block, kinetic_energy, transport_rate, reynolds, level, velocity } = *self;
+        [time, block as f64, kinetic_energy, transport_rate, reynolds, level, velocity]
+    }
+
+    fn of([time, block, kinetic_energy, transport_rate, reynolds, level, velocity]: [f64; 7]) -> Self {
+        Self { time, block: block as usize, kinetic_energy, transport_rate, reynolds, level, velocity }
+    }
+}
 
 /// Sums of the fluid over the samples of one block.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,8 +54,8 @@ pub struct Block {
 /// All samples.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
-    /// samples in order
-    pub rows: Vec<Row>,
+    /// in order
+    pub samples: Vec<Sample>,
     /// blocks of the fluid
     pub blocks: Vec<Block>,
 }
@@ -39,19 +64,19 @@ impl Record {
     /// Nothing yet, for `cells` cells.
     #[must_use]
     pub fn new(cells: usize) -> Self {
-        Self { rows: Vec::new(), blocks: vec![Block { samples: 0.0, sums: vec![[0.0; FLUID]; cells] }; BLOCKS] }
+        Self { samples: Vec::new(), blocks: vec![Block { samples: 0.0, sums: vec![[0.0; FLUID]; cells] }; BLOCKS] }
     }
 
-    /// Adds a sample of the fluid to `block`.
-    pub fn sample(&mut self, row: Row, exchange: &Exchange) {
-        let block = &mut self.blocks[(row[1] as usize).min(BLOCKS - 1)];
+    /// Adds a sample, and the fluid to its block.
+    pub fn add(&mut self, sample: Sample, exchange: &Exchange) {
+        let block = &mut self.blocks[sample.block.min(BLOCKS - 1)];
         block.samples += 1.0;
         for (sums, values) in block.sums.iter_mut().zip(fluid(exchange)) {
             for (sum, value) in sums.iter_mut().zip(values) {
                 *sum += value;
             }
         }
-        self.rows.push(row);
+        self.samples.push(sample);
     }
 
     /// First block after the transient: the cut of the transport rates, not beyond their half, that leaves the smallest
@@ -59,17 +84,17 @@ impl Record {
     /// rounded up to a block. And whether it lies inside, not at the half: else the transient may not be over.
     #[must_use]
     pub fn transient(&self) -> (usize, bool) {
-        let values: Vec<f64> = self.rows.iter().map(|row| row[3]).collect();
+        let values: Vec<f64> = self.samples.iter().map(|sample| sample.transport_rate).collect();
         let cut = marginal(&values);
-        let block = self.rows.get(cut).map_or(0, |row| if cut == 0 { 0 } else { row[1] as usize + 1 });
-        let last = self.rows.last().map_or(0, |row| row[1] as usize);
+        let block = self.samples.get(cut).map_or(0, |sample| if cut == 0 { 0 } else { sample.block + 1 });
+        let last = self.samples.last().map_or(0, |sample| sample.block);
         (block.min(last), cut < values.len() / 2 || values.len() < 2)
     }
 
-    /// Mean of `column` from block `first` on, and its standard error by blocks of time.
+    /// Mean of `value` from block `first` on, and its standard error by blocks of time.
     #[must_use]
-    pub fn mean(&self, column: usize, first: usize) -> Option<Known> {
-        of_series(&self.column(column, first), COUNTS)
+    pub fn mean(&self, value: impl Fn(&Sample) -> f64, first: usize) -> Option<Estimate> {
+        of_series(&self.values(value, first), COUNTS)
     }
 
     /// Whether the samples of the transport rate from block `first` on are enough for standard errors.
@@ -77,33 +102,33 @@ impl Record {
     /// # Errors
     /// Why they are not.
     pub fn resolved(&self, first: usize) -> Result<(), Unknown> {
-        resolved(&self.column(3, first))
+        resolved(&self.values(|sample| sample.transport_rate, first))
     }
 
-    fn column(&self, column: usize, first: usize) -> Vec<f64> {
-        self.rows.iter().filter(|row| row[1] as usize >= first).map(|row| row[column]).collect()
+    fn values(&self, value: impl Fn(&Sample) -> f64, first: usize) -> Vec<f64> {
+        self.samples.iter().filter(|sample| sample.block >= first).map(value).collect()
     }
 
     /// Standard error of the transport rate over it, where it has one and there are samples enough to rely on it.
     #[must_use]
     pub fn precision(&self) -> Option<f64> {
         let (first, over) = self.transient();
-        let blocks = self.rows.last()?[1] as usize + 1;
-        let enough = over && blocks >= first + LEAST_BLOCKS && self.rows.len() >= 80;
-        let known = self.mean(3, first).filter(|_| enough)?;
-        known.error.ok().filter(|_| known.mean > 0.0).map(|error| error / known.mean)
+        let blocks = self.samples.last()?.block + 1;
+        let enough = over && blocks >= first + MIN_BLOCKS && self.samples.len() >= 80;
+        let rate = self.mean(|sample| sample.transport_rate, first).filter(|_| enough)?;
+        rate.stderr.ok().filter(|_| rate.mean > 0.0).map(|error| error / rate.mean)
     }
 
     /// Fluid per cell from block `first` on: means, and standard errors of them.
     #[must_use]
-    pub fn fluid(&self, first: usize) -> Vec<[Known; FLUID]> {
+    pub fn fluid(&self, first: usize) -> Vec<[Estimate; FLUID]> {
         let blocks: Vec<&Block> = self.blocks[first..].iter().filter(|block| block.samples > 0.0).collect();
         let cells = self.blocks[0].sums.len();
         let enough = self.resolved(first);
         let one = |cell: usize, k: usize| {
             let values: Vec<f64> = blocks.iter().map(|block| block.sums[cell][k] / block.samples).collect();
             let mean = values.iter().sum::<f64>() / values.len() as f64;
-            Known { mean, error: enough.and_then(|()| of_blocks(&values, mean)) }
+            Estimate { mean, stderr: enough.and_then(|()| of_blocks(&values, mean)) }
         };
         if blocks.is_empty() {
             return Vec::new();
@@ -113,8 +138,8 @@ impl Record {
 
     /// Writes all samples.
     pub fn write(&self, to: &mut Writer) {
-        to.whole(self.rows.len() as u64);
-        self.rows.iter().flatten().for_each(|x| to.number(*x));
+        to.whole(self.samples.len() as u64);
+        self.samples.iter().flat_map(Sample::numbers).for_each(|x| to.number(x));
         self.save(to);
     }
 
@@ -125,11 +150,11 @@ impl Record {
     pub fn read(from: &mut Reader<'_>, cells: usize) -> Result<Self, CheckpointError> {
         let mut record = Self::new(cells);
         for _ in 0..from.whole()? {
-            let mut row = [0.0; WIDTH];
-            for x in &mut row {
+            let mut numbers = [0.0; 7];
+            for x in &mut numbers {
                 *x = from.number()?;
             }
-            record.rows.push(row);
+            record.samples.push(Sample::of(numbers));
         }
         record.fill(from)?;
         Ok(record)

@@ -4,15 +4,15 @@ use std::time::Instant;
 
 use super::error::CoupledError::Fluid;
 use super::exchange::Exchange;
-use super::hold::Hold;
+use super::freeze::FrozenBed;
 use super::limits;
 use super::outcome;
-use super::record::{BLOCKS, Record};
-use super::scene::{gravity, level, relief};
+use super::record::{BLOCKS, Record, Sample};
+use super::start::{gravity, level, relief};
 use crate::closures::fluctuation::Fluctuation;
 use crate::dem::average::Averages;
 use crate::dem::checkpoint::{Reader, Saved, Writer};
-use crate::dem::drive::{self, Flow, Progress, Scene};
+use crate::dem::drive::{self, Flow, GrainFlow, Progress};
 use crate::dem::engine::Engine;
 use crate::dem::grains::Grain;
 use crate::dem::keep::{contact_equations, law};
@@ -35,21 +35,21 @@ pub(super) struct Run<'a> {
     pub exchange: Exchange,
     pub averages: Averages,
     pub record: Record,
-    /// what is held of the deep bed
-    pub hold: Option<Hold>,
+    /// the frozen part of the deep bed
+    pub frozen: Option<FrozenBed>,
     /// steps of the grains in a period; periods in a sample and in the whole run, and those made
     pub steps: u64,
     pub sampled: u64,
     pub periods: u64,
     pub made: u64,
-    /// steps until the eddies turn, and draws of them so far
-    pub turn: u64,
+    /// steps until the fluctuations are drawn anew, and draws of them so far
+    pub until_draw: u64,
     draws: u64,
     /// transport rate summed over the periods since the last sample
     rates: f64,
 }
 
-impl Scene for Coupled {
+impl GrainFlow for Coupled {
     fn bed(&self) -> &GrainBed {
         &self.bed
     }
@@ -68,7 +68,7 @@ pub fn run(flow: &Coupled, context: &mut Context<'_>) -> Result<Outcome, Failure
 }
 
 impl<'a> Flow<'a> for Run<'a> {
-    type Scene = Coupled;
+    type Problem = Coupled;
     const BETWEEN: u64 = 1;
 
     /// Starts the fluid over a bed that has come to rest.
@@ -81,7 +81,7 @@ impl<'a> Flow<'a> for Run<'a> {
             Surface::Depth(depth) => {
                 let highest = (0..engine.grains().len()).map(|i| engine.grains().position(i)[2]).fold(0.0, f64::max);
                 let mut dry = Exchange::new(flow, highest + bed.d, engine.grains().len()).map_err(Fluid)?;
-                dry.look(&engine, 0.0);
+                dry.average(&engine, 0.0);
                 depth + level(dry.phi(), dry.cell_height(), bed.d)
             }
         };
@@ -93,7 +93,7 @@ impl<'a> Flow<'a> for Run<'a> {
         engine.change(flow.coupling_period / steps, gravity(flow));
         limits::grains(flow, &engine, &exchange)?;
         engine.begin_ledger();
-        let hold = Hold::new(flow, &engine);
+        let frozen = FrozenBed::new(flow, &engine);
         let cells = exchange.phi().len();
         let area = bed.size[0] * bed.size[1];
         let shape = [0.0, exchange.cell_height(), area * exchange.cell_height(), bed.rho_p];
@@ -108,8 +108,8 @@ impl<'a> Flow<'a> for Run<'a> {
             sampled,
             periods: (bed.discrete.duration / flow.coupling_period).round().max(1.0) as u64,
             made: 0,
-            hold,
-            turn: 0,
+            frozen,
+            until_draw: 0,
             draws: 0,
             rates: 0.0,
         })
@@ -124,29 +124,43 @@ impl<'a> Flow<'a> for Run<'a> {
         for count in &mut counts {
             *count = from.whole()?;
         }
-        let [steps, sampled, periods, made, turn, draws] = counts;
+        let [steps, sampled, periods, made, until_draw, draws] = counts;
         let rates = from.number()?;
         let exchange = Exchange::restore(flow, engine.grains().len(), from)?;
         let cells = exchange.phi().len();
         let mut averages = Averages::empty(cells, BLOCKS, [0.0; 4]);
         averages.fill(from)?;
         let record = Record::read(from, cells)?;
-        let hold = Hold::restore(flow, &engine, from)?;
-        Ok(Self { flow, engine, exchange, averages, record, hold, steps, sampled, periods, made, turn, draws, rates })
+        let frozen = FrozenBed::restore(flow, &engine, from)?;
+        Ok(Self {
+            flow,
+            engine,
+            exchange,
+            averages,
+            record,
+            frozen,
+            steps,
+            sampled,
+            periods,
+            made,
+            until_draw,
+            draws,
+            rates,
+        })
     }
 
     fn save(&self, to: &mut Writer) {
-        for count in [self.steps, self.sampled, self.periods, self.made, self.turn, self.draws] {
+        for count in [self.steps, self.sampled, self.periods, self.made, self.until_draw, self.draws] {
             to.whole(count);
         }
         to.number(self.rates);
         self.exchange.save(to);
         self.averages.save(to);
         self.record.write(to);
-        self.hold.iter().for_each(|hold| hold.save(to));
+        self.frozen.iter().for_each(|frozen| frozen.save(to));
     }
 
-    fn scene(&self) -> &'a Coupled {
+    fn problem(&self) -> &'a Coupled {
         self.flow
     }
 
@@ -164,19 +178,19 @@ impl<'a> Flow<'a> for Run<'a> {
 
     /// One coupling period.
     fn advance(&mut self) -> Result<(), SolveError> {
-        self.exchange.look(&self.engine, self.engine.settings().dt);
-        // What grains were given in the last period is booked before they are held.
-        if self.hold.as_mut().is_some_and(|hold| hold.look(self.made, &mut self.engine)) {
-            self.exchange.look(&self.engine, self.engine.settings().dt);
+        self.exchange.average(&self.engine, self.engine.settings().dt);
+        // What grains were given in the last period is booked before they are frozen.
+        if self.frozen.as_mut().is_some_and(|frozen| frozen.check(self.made, &mut self.engine)) {
+            self.exchange.average(&self.engine, self.engine.settings().dt);
         }
         self.rates += self.exchange.rate();
         limits::drag(self.flow, &self.engine, &self.exchange)?;
         for _ in 0..self.steps {
-            if self.turn == 0 {
-                self.stir();
+            if self.until_draw == 0 {
+                self.resample_fluctuations();
             }
-            self.turn -= 1;
-            self.engine.step(&self.exchange.felt)?;
+            self.until_draw -= 1;
+            self.engine.step(&self.exchange.at_grains)?;
         }
         self.exchange.advance(self.flow.coupling_period, self.flow.fluid_steps).map_err(Fluid)?;
         limits::fluid(self.flow, &self.exchange)?;
@@ -196,7 +210,7 @@ impl<'a> Flow<'a> for Run<'a> {
             None => String::new(),
         };
         let stage = format!("{:.1} s of flow, {left:.0} s left{precision},", self.time());
-        Progress { stage, quantity: self.record.rows.last().map(|row| (&q::TRANSPORT_RATE, row[3])) }
+        Progress { stage, quantity: self.record.samples.last().map(|last| (&q::TRANSPORT_RATE, last.transport_rate)) }
     }
 
     fn is_known(&self) -> bool {
@@ -205,7 +219,7 @@ impl<'a> Flow<'a> for Run<'a> {
     }
 
     fn end(&mut self) -> Result<(), SolveError> {
-        self.exchange.look(&self.engine, self.engine.settings().dt);
+        self.exchange.average(&self.engine, self.engine.settings().dt);
         limits::grains(self.flow, &self.engine, &self.exchange)?;
         Ok(self.downhill(true)?)
     }
@@ -241,16 +255,16 @@ impl Run<'_> {
         [level, depth, discharge / depth]
     }
 
-    /// Draws the eddies that each grain meets anew.
-    pub(super) fn stir(&mut self) {
+    /// Draws anew the velocity fluctuation at each grain.
+    pub(super) fn resample_fluctuations(&mut self) {
         let Fluctuation::RandomWalk(walk) = self.flow.fluctuation else {
-            self.turn = u64::MAX;
+            self.until_draw = u64::MAX;
             return;
         };
         let [_, depth, speed] = self.water();
         let dt = self.engine.settings().dt;
         let time = if speed > 0.0 { depth / speed } else { f64::INFINITY };
-        self.turn = (time / dt).round().clamp(1.0, 1e12) as u64;
+        self.until_draw = (time / dt).round().clamp(1.0, 1e12) as u64;
         let (phi, reynolds) = (self.exchange.phi(), self.exchange.reynolds());
         let mut deviations: Vec<f64> =
             (0..phi.len()).map(|i| walk.deviation(reynolds[i], 1.0 - phi[i], self.flow.rho_f)).collect();
@@ -259,24 +273,24 @@ impl Run<'_> {
         let grains = self.engine.grains();
         for i in 0..grains.len() {
             let id = grains.ids[i];
-            let sigma = deviations[self.exchange.felt.cell(grains.position(i)[2])];
+            let sigma = deviations[self.exchange.at_grains.cell(grains.position(i)[2])];
             let mut stream = Stream::new([seed ^ (EDDIES << 32), self.draws, u64::from(id)]);
-            self.exchange.felt.set_fluctuation(id, walk.draw(&mut stream, sigma));
+            self.exchange.at_grains.set_fluctuation(id, walk.draw(&mut stream, sigma));
         }
         self.draws += 1;
     }
 
     fn sample(&mut self) {
         let block = ((self.made - 1) as usize * BLOCKS / self.periods as usize).min(BLOCKS - 1);
-        let largest = self.exchange.column.tau_reynolds().iter().copied().fold(0.0, f64::max);
-        let [level, _, speed] = self.water();
-        let rate = self.rates / self.sampled as f64;
+        let reynolds = self.exchange.column.tau_reynolds().iter().copied().fold(0.0, f64::max);
+        let [level, _, velocity] = self.water();
+        let transport_rate = self.rates / self.sampled as f64;
         self.rates = 0.0;
-        let kinetic = self.engine.grains().kinetic_energy();
-        let row = [self.time(), block as f64, kinetic, rate, largest, level, speed];
-        self.record.sample(row, &self.exchange);
-        let (grains, felt) = (self.engine.grains(), &self.exchange.felt);
-        let drag = |i: usize| felt.drag(grains.ids[i], grains.position(i)[2], grains.velocity(i)).force;
+        let kinetic_energy = self.engine.grains().kinetic_energy();
+        let sample = Sample { time: self.time(), block, kinetic_energy, transport_rate, reynolds, level, velocity };
+        self.record.add(sample, &self.exchange);
+        let (grains, at_grains) = (self.engine.grains(), &self.exchange.at_grains);
+        let drag = |i: usize| at_grains.drag(grains.ids[i], grains.position(i)[2], grains.velocity(i)).force;
         self.averages.sample(&self.engine, block, drag);
     }
 }

@@ -3,7 +3,7 @@
 use super::Coupled;
 use crate::model::{Rung, StudyPlan};
 
-/// Shorter runs, smaller cells, softer and harder grains, older fluids, a deep bed that is held: from the case itself, one at a time.
+/// Shorter runs, smaller cells, softer and harder grains, older fluids, a frozen deep bed: from the case itself, one at a time.
 pub(super) fn plan(flow: &Coupled) -> StudyPlan {
     let (duration, [length, width]) = (flow.bed.discrete.duration, flow.bed.size);
     let rung = |series, setting, changes| Rung { series, setting, changes };
@@ -29,8 +29,8 @@ pub(super) fn plan(flow: &Coupled) -> StudyPlan {
         rungs.push(rung("coupling period", period.into(), vec![format!("discrete.coupling_period={period}")]));
     }
     for creep in ["0.003", "0.01"] {
-        let words = format!("layers held below {creep} d in 0.2 s");
-        rungs.push(rung("deep bed held", words, vec![format!("discrete.hold_creep={creep}")]));
+        let words = format!("layers frozen below {creep} d in 0.2 s");
+        rungs.push(rung("deep bed frozen", words, vec![format!("discrete.hold_creep={creep}")]));
     }
     StudyPlan { rungs, ..StudyPlan::default() }
 }

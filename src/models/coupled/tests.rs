@@ -1,11 +1,11 @@
 //! Grains and fluid against each other: terminal velocity, momentum, steady states, restarts.
 
 use super::exchange::Exchange;
-use super::felt::Felt;
-use super::record::Record;
+use super::fluid_at_grains::FluidAtGrains;
+use super::record::{Record, Sample};
 use super::run;
 use super::run::Run;
-use super::scene::{gravity, level, relief};
+use super::start::{gravity, level, relief};
 use crate::closures::contact::{LinearSpring, Tension};
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::fluctuation::{Fluctuation, RandomWalk};
@@ -20,7 +20,7 @@ use crate::dem::drive::{self, HalfWay, accepts};
 use crate::dem::engine::{Engine, Settings};
 use crate::dem::grains::Grain;
 use crate::dem::keep::law;
-use crate::models::coupled::{Coupled, Surface};
+use crate::models::coupled::{Coupled, Relief, Surface};
 use crate::result::{Checkpoints, Context, Quiet, Status, quantity as q};
 use approx::assert_relative_eq;
 use std::ops::ControlFlow;
@@ -61,7 +61,7 @@ fn flow() -> Coupled {
             contact: LinearSpring { k_n: 5e3, k_s: 2.5e3, mu: 0.4, e_n: 0.5, tension: Tension::Cut },
             discrete: discrete.grains(),
         },
-        relief: (2.75e-3, 0.5e-3),
+        relief: Relief { largest: 2.75e-3, step: 0.5e-3 },
         rho_f: 1000.0,
         eta: 1e-3,
         surface: Surface::Height(6.0 * D),
@@ -76,7 +76,7 @@ fn flow() -> Coupled {
         fluctuation: Fluctuation::RandomWalk(RandomWalk { spanwise: false, per_porosity: true }),
         coupling_period: 1e-2,
         fluid_steps: 1,
-        hold: None,
+        freeze: None,
         fluid_scheme: crate::models::coupled::FluidScheme::Implicit,
         sample_period: 2e-2,
         known_to: None,
@@ -99,11 +99,11 @@ fn sparse(density: f64, dt: f64, layers: usize) -> Engine<crate::dem::LinearSpri
 fn the_slope_of_the_drag_is_its_derivative() {
     let law = DallavalleGrain { constant: 0.4, exponent: 3.1 };
     let at = |u: f64| {
-        let mut felt = Felt::new(law, law.viscous(1e-6, D), 4, D, 1);
-        felt.velocity.fill(u);
-        felt.size.fill(law.size(0.3, 1000.0, D));
-        felt.set_fluctuation(0, [0.02, 0.0, -0.01]);
-        felt.drag(0, 0.5 * D, [0.3, 0.05, 0.02])
+        let mut at_grains = FluidAtGrains::new(law, law.viscous(1e-6, D), 4, D, 1);
+        at_grains.velocity.fill(u);
+        at_grains.size.fill(law.size(0.3, 1000.0, D));
+        at_grains.set_fluctuation(0, [0.02, 0.0, -0.01]);
+        at_grains.drag(0, 0.5 * D, [0.3, 0.05, 0.02])
     };
     for u in [0.1, 0.28, 0.5, 1.0] {
         let numerical = (at(u + 1e-6).force[0] - at(u - 1e-6).force[0]) / 2e-6;
@@ -124,10 +124,10 @@ fn the_whole_weight_pulls_along_the_flow_and_the_submerged_one_normal_to_it() {
 #[test]
 fn there_is_no_drag_above_the_surface() {
     let law = DallavalleGrain { constant: 0.4, exponent: 3.1 };
-    let mut felt = Felt::new(law, law.viscous(1e-6, D), 4, D, 1);
-    felt.velocity[..4].fill(1.0);
-    felt.size[..4].fill(law.size(0.0, 1000.0, D));
-    let at = |z: f64| felt.drag(0, z, [0.0; 3]).force[0];
+    let mut at_grains = FluidAtGrains::new(law, law.viscous(1e-6, D), 4, D, 1);
+    at_grains.velocity[..4].fill(1.0);
+    at_grains.size[..4].fill(law.size(0.0, 1000.0, D));
+    let at = |z: f64| at_grains.drag(0, z, [0.0; 3]).force[0];
     assert!(at(3.99 * D) > 0.0 && at(-0.2 * D) > 0.0);
     assert_eq!((at(4.01 * D), at(1e3 * D)), (0.0, 0.0));
 }
@@ -144,13 +144,13 @@ fn what_the_grains_are_averaged_to_is_exact() {
     let engine =
         Engine::new(&grains, domain, law(&case.bed.contact).unwrap(), Settings::new(1e-4, [0.0; 3], D), 1).unwrap();
     let mut exchange = Exchange::new(&case, 4.0 * D, 9).unwrap();
-    exchange.look(&engine, 0.0);
+    exchange.average(&engine, 0.0);
     let (h, area, pi) = (exchange.cell_height(), 36.0 * D * D, std::f64::consts::PI);
     let (phi, volume) = (exchange.phi(), pi / 6.0 * D.powi(3));
     assert_relative_eq!(phi.iter().sum::<f64>() * h * area, 9.0 * volume, max_relative = 1e-12);
     assert_relative_eq!(exchange.rate(), volume * 3.6 / area, max_relative = 1e-12);
     let mut shallow = Exchange::new(&case, D, 9).unwrap();
-    shallow.look(&engine, 0.0);
+    shallow.average(&engine, 0.0);
     assert!(shallow.phi().iter().sum::<f64>() * shallow.cell_height() * area < 8.9 * volume);
     assert_eq!(shallow.rate(), exchange.rate(), "a grain counts as a whole, whatever of it is under water");
     // Within a cell the section is a parabola: Simpson's rule is exact.
@@ -173,9 +173,9 @@ fn eddies_turn_over_with_the_water_and_differ_from_grain_to_grain() {
     let [_, depth, speed] = run.water();
     assert!(depth > 0.5 * D && depth < 6.0 * D && speed > 0.05, "{depth} {speed}");
     let mut eddies = || {
-        run.stir();
-        assert_eq!(run.turn, (depth / speed / run.engine.settings().dt).round() as u64);
-        let carried: Vec<f64> = run.exchange.felt.carried().collect();
+        run.resample_fluctuations();
+        assert_eq!(run.until_draw, (depth / speed / run.engine.settings().dt).round() as u64);
+        let carried: Vec<f64> = run.exchange.at_grains.carried().collect();
         carried.chunks(4).map(|c| [c[0], c[1], c[2]]).collect::<Vec<_>>()
     };
     let (first, second) = (eddies(), eddies());
@@ -198,11 +198,11 @@ fn a_grain_settles_at_the_terminal_velocity() {
     let settings = Settings::new(dt, [0.0, 0.0, -g], D);
     let mut engine = Engine::new(&[grain], domain, law(&case.bed.contact).unwrap(), settings, 1).unwrap();
     let mut exchange = Exchange::new(&case, 90.0 * D, 1).unwrap();
-    exchange.look(&engine, 0.0);
+    exchange.average(&engine, 0.0);
     // A single grain in so small a box is not dilute: the hindrance of clear water.
-    exchange.felt.size[..].fill(case.drag.size(0.0, 1000.0, D));
+    exchange.at_grains.size[..].fill(case.drag.size(0.0, 1000.0, D));
     for _ in 0..7000 {
-        engine.step(&exchange.felt).unwrap();
+        engine.step(&exchange.at_grains).unwrap();
     }
     let weight = std::f64::consts::PI / 6.0 * D.powi(3) * 1500.0 * 9.81;
     let (mut low, mut high) = (0.0, 2.0);
@@ -216,7 +216,7 @@ fn a_grain_settles_at_the_terminal_velocity() {
 
 #[test]
 fn any_coupling_period_leads_to_the_same_flow_through_grains_that_cannot_move() {
-    // So heavy that nothing moves them: what the fluid loses they get, all of it through the account.
+    // So heavy that nothing moves them: what the fluid loses they get, all of it through the residual impulse.
     let case = flow();
     let top = 8.0 * D;
     let dt = 1e-3;
@@ -229,13 +229,13 @@ fn any_coupling_period_leads_to_the_same_flow_through_grains_that_cannot_move() 
         let mut engine = sparse(1e12, dt, 4);
         let mut exchange = Exchange::new(&case, top, engine.grains().len()).unwrap();
         for _ in 0..(time / period) as usize {
-            exchange.look(&engine, dt);
+            exchange.average(&engine, dt);
             // The drag does not change while the grains rest: one step of the whole period.
-            engine.step(&exchange.felt).unwrap();
-            exchange.felt.repeat(period / dt);
+            engine.step(&exchange.at_grains).unwrap();
+            exchange.at_grains.repeat(period / dt);
             exchange.advance(period, 1).unwrap();
         }
-        exchange.look(&engine, dt);
+        exchange.average(&engine, dt);
         assert!(exchange.defect().abs() < 1e-12, "{period}: {}", exchange.defect());
         for (u, v) in exchange.column.velocity().iter().zip(steady.column.velocity()) {
             assert!((u - v).abs() < 1e-4 * fastest, "{period}: {u} for {v}");
@@ -252,9 +252,9 @@ fn what_the_fluid_loses_the_grains_get() {
     exchange.begin(&engine).unwrap();
     let before = engine.grains().momentum()[0];
     for _ in 0..50 {
-        exchange.look(&engine, dt);
+        exchange.average(&engine, dt);
         for _ in 0..100 {
-            engine.step(&exchange.felt).unwrap();
+            engine.step(&exchange.at_grains).unwrap();
         }
         let inertia = |e: &Exchange| {
             let cells = e.phi().iter().zip(e.column.velocity());
@@ -269,7 +269,7 @@ fn what_the_fluid_loses_the_grains_get() {
         let impulse = 1e-2 * (1000.0 * 9.81 * slope * water - bottom) - (exchange.totals[0].total() - net);
         assert!((inertia(&exchange) - before - impulse).abs() < 1e-9 * before, "{impulse}");
     }
-    exchange.look(&engine, dt);
+    exchange.average(&engine, dt);
     assert!(exchange.defect().abs() < 1e-12, "{}", exchange.defect());
     // Nothing else acts along x: what was given is the momentum of the grains.
     let area = 36.0 * D * D;
@@ -380,7 +380,15 @@ fn the_level_of_a_bed_is_where_half_of_it_is_left() {
 fn samples_are_read_as_they_were_written() {
     use crate::dem::checkpoint::{Reader, Writer};
     let mut record = Record::new(3);
-    record.rows.push([1.0, 0.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
+    record.samples.push(Sample {
+        time: 1.0,
+        block: 0,
+        kinetic_energy: 3.0,
+        transport_rate: 4.0,
+        reynolds: 5.0,
+        level: 6.0,
+        velocity: 7.0,
+    });
     record.blocks[0].samples = 2.0;
     record.blocks[7].sums[2][4] = 9.0;
     let mut to = Writer::default();

@@ -80,34 +80,34 @@ impl<'a> Assessment<'a> {
 /// [`TableError`] if the columns do not go with the profile.
 pub(super) fn push(flow: &Coupled, profile: &mut Profile) -> Result<(), TableError> {
     let made: Vec<(&'static Quantity, Vec<Option<f64>>)> = {
-        let scene = Scene::of(flow, profile);
-        let rows = scene.grains.rows();
+        let comparison = Comparison::of(flow, profile);
+        let rows = comparison.grains.rows();
         let column = |of: &dyn Fn(usize) -> Option<f64>| -> Vec<Option<f64>> {
             let mut values = vec![None; profile.rows()];
             rows.iter().for_each(|&row| values[row] = of(row).filter(|x| x.is_finite()));
             values
         };
-        let (new, old) = (scene.proposed, scene.classical);
+        let (new, old) = (comparison.proposed, comparison.classical);
         let mut made: Vec<(&'static Quantity, Vec<Option<f64>>)> = vec![
-            (&q::RADIAL_THEORY, column(&|row| scene.radial(new, row))),
-            (&q::RADIAL_CLASSICAL, column(&|row| scene.radial(old, row))),
-            (&q::VISCOSITY_FACTOR_THEORY, column(&|row| Some(scene.transport(new, row)?.0))),
-            (&q::VISCOSITY_FACTOR_CLASSICAL, column(&|row| Some(scene.transport(old, row)?.0))),
-            (&q::CONDUCTIVITY_FACTOR_THEORY, column(&|row| Some(scene.transport(new, row)?.1))),
-            (&q::CONDUCTIVITY_FACTOR_CLASSICAL, column(&|row| Some(scene.transport(old, row)?.1))),
-            (&q::CONTACT_FACTOR_THEORY, column(&|row| scene.dissipation(new, row))),
-            (&q::CONTACT_FACTOR_CLASSICAL, column(&|row| scene.dissipation(old, row))),
-            (&q::DRAG_FACTOR_THEORY, column(&|row| scene.drag_work(new, row))),
-            (&q::DRAG_FACTOR_CLASSICAL, column(&|row| scene.drag_work(old, row))),
+            (&q::RADIAL_THEORY, column(&|row| comparison.radial(new, row))),
+            (&q::RADIAL_CLASSICAL, column(&|row| comparison.radial(old, row))),
+            (&q::VISCOSITY_FACTOR_THEORY, column(&|row| Some(comparison.transport(new, row)?.0))),
+            (&q::VISCOSITY_FACTOR_CLASSICAL, column(&|row| Some(comparison.transport(old, row)?.0))),
+            (&q::CONDUCTIVITY_FACTOR_THEORY, column(&|row| Some(comparison.transport(new, row)?.1))),
+            (&q::CONDUCTIVITY_FACTOR_CLASSICAL, column(&|row| Some(comparison.transport(old, row)?.1))),
+            (&q::CONTACT_FACTOR_THEORY, column(&|row| comparison.dissipation(new, row))),
+            (&q::CONTACT_FACTOR_CLASSICAL, column(&|row| comparison.dissipation(old, row))),
+            (&q::DRAG_FACTOR_THEORY, column(&|row| comparison.drag_work(new, row))),
+            (&q::DRAG_FACTOR_CLASSICAL, column(&|row| comparison.drag_work(old, row))),
         ];
         let measured: [(_, _, &dyn Fn(usize) -> Measured); 5] = [
-            (&q::VISCOSITY_FACTOR, &q::VISCOSITY_FACTOR_STDERR, &|row| scene.viscosity(row)),
-            (&q::CONDUCTIVITY_FACTOR, &q::CONDUCTIVITY_FACTOR_STDERR, &|row| scene.conductivity(row)),
-            (&q::CONTACT_FACTOR, &q::CONTACT_FACTOR_STDERR, &|row| scene.loss(&q::CONTACT_LOSS, row)),
+            (&q::VISCOSITY_FACTOR, &q::VISCOSITY_FACTOR_STDERR, &|row| comparison.viscosity(row)),
+            (&q::CONDUCTIVITY_FACTOR, &q::CONDUCTIVITY_FACTOR_STDERR, &|row| comparison.conductivity(row)),
+            (&q::CONTACT_FACTOR, &q::CONTACT_FACTOR_STDERR, &|row| comparison.loss(&q::CONTACT_LOSS, row)),
             (&q::CONTACT_FACTOR_DIRECT, &q::CONTACT_FACTOR_DIRECT_STDERR, &|row| {
-                scene.loss(&q::CONTACT_LOSS_DIRECT, row)
+                comparison.loss(&q::CONTACT_LOSS_DIRECT, row)
             }),
-            (&q::DRAG_FACTOR, &q::DRAG_FACTOR_STDERR, &|row| scene.loss(&q::DRAG_LOSS, row)),
+            (&q::DRAG_FACTOR, &q::DRAG_FACTOR_STDERR, &|row| comparison.loss(&q::DRAG_LOSS, row)),
         ];
         for (value, error, of) in measured {
             made.push((value, column(&|row| Some(of(row)?.0))));
@@ -119,14 +119,14 @@ pub(super) fn push(flow: &Coupled, profile: &mut Profile) -> Result<(), TableErr
 }
 
 /// The grains, the flow that they are in, and the two theories of them.
-struct Scene<'a> {
+struct Comparison<'a> {
     grains: Assessment<'a>,
     flow: &'a Coupled,
     proposed: Kinetic,
     classical: Kinetic,
 }
 
-impl<'a> Scene<'a> {
+impl<'a> Comparison<'a> {
     fn of(flow: &'a Coupled, profile: &'a Profile) -> Self {
         let (e, mu_p) = (flow.bed.contact.e_n, flow.bed.contact.mu);
         Self {

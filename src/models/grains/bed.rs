@@ -7,8 +7,8 @@ use crate::dem::GrainBed;
 use crate::dem::average::Averages;
 use crate::dem::body::Nothing;
 use crate::dem::checkpoint::{Reader, Saved, Writer};
-use crate::dem::deposit::{BETWEEN, pace};
-use crate::dem::drive::{self, Flow, Progress, Scene};
+use crate::dem::deposit::{BETWEEN, progress_text};
+use crate::dem::drive::{self, Flow, GrainFlow, Progress};
 use crate::dem::engine::Engine;
 
 use crate::dem::keep::{contact_equations, law};
@@ -34,7 +34,7 @@ struct Tilted<'a> {
     made: u64,
 }
 
-impl Scene for GrainBed {
+impl GrainFlow for GrainBed {
     fn bed(&self) -> &GrainBed {
         self
     }
@@ -49,7 +49,7 @@ pub fn run(bed: &GrainBed, context: &mut Context<'_>) -> Result<Outcome, Failure
 }
 
 impl<'a> Flow<'a> for Tilted<'a> {
-    type Scene = GrainBed;
+    type Problem = GrainBed;
     const BETWEEN: u64 = BETWEEN;
 
     /// Tilts the bed that has come to rest.
@@ -94,7 +94,7 @@ impl<'a> Flow<'a> for Tilted<'a> {
         self.means.save(to);
     }
 
-    fn scene(&self) -> &'a GrainBed {
+    fn problem(&self) -> &'a GrainBed {
         self.bed
     }
 
@@ -128,7 +128,7 @@ impl<'a> Flow<'a> for Tilted<'a> {
     }
 
     fn progress(&self, made: u64, since: Instant) -> Progress {
-        let stage = pace("flowing", made, since, self.steps - self.made);
+        let stage = progress_text("flowing", made, since, self.steps - self.made);
         Progress { stage, quantity: self.means.velocity().map(|u| (&q::MEAN_VELOCITY, u)) }
     }
 

@@ -79,27 +79,27 @@ pub enum ImpactKind {
     Impact,
 }
 
-/// The model: grains held against what is known exactly.
+/// The model: grains compared with an exact solution.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct TrialModel {
-    /// What kind of model: a few grains, held against a closed form or a conservation law.
-    pub kind: TrialKind,
+pub struct VerificationModel {
+    /// What kind of model: a few grains, compared with a closed form or a conservation law.
+    pub kind: VerificationKind,
     /// Which one.
-    pub trial: Trial,
+    pub trial: VerificationCase,
 }
 
-/// A few grains, held against a closed form or a conservation law.
+/// A few grains, compared with a closed form or a conservation law.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum TrialKind {
-    /// A few grains, held against a closed form or a conservation law.
+pub enum VerificationKind {
+    /// A few grains, compared with a closed form or a conservation law.
     Trial,
 }
 
-/// What grains are held against.
+/// What the grains are compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
-pub enum Trial {
+pub enum VerificationCase {
     /// Head-on impacts for restitution coefficients from 0.1 to 1, both conventions, on wall, fixed and mobile grain.
     HeadOn,
     /// Oblique impacts at every degree: the gross-slip law with the contact of the case; energy with many others, too.
@@ -112,15 +112,15 @@ pub enum Trial {
     Stack,
     /// Two hundred grains that collide: momentum and angular momentum.
     Cluster,
-    /// Eight grains that collide for a million steps: the account of energies.
+    /// Eight grains that collide for a million steps: the energy balance.
     Ledger,
     /// Energy of springs and grains together in one impact, against the time step.
     Springs,
 }
 
-/// How the grains of a trial move.
+/// How the grains of a verification case move.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct TrialFlow {
+pub struct VerificationFlow {
     /// Velocity at the beginning.
     #[serde(default = "slow")]
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
@@ -131,7 +131,7 @@ pub struct TrialFlow {
     pub gravity: f64,
 }
 
-impl Default for TrialFlow {
+impl Default for VerificationFlow {
     fn default() -> Self {
         Self { velocity: slow(), gravity: gravity() }
     }
@@ -241,15 +241,15 @@ tables! {
 }
 
 tables! {
-    /// A few grains, held against a closed form or a conservation law.
-    pub struct TrialTables {
+    /// A few grains, compared with a closed form or a conservation law.
+    pub struct VerificationTables {
         /// The grains.
         grains: Grains,
         /// How they move.
         #[serde(default)]
-        flow: TrialFlow,
+        flow: VerificationFlow,
         /// The model.
-        model: TrialModel,
+        model: VerificationModel,
         /// Laws.
         closures: GrainClosures,
         /// How finely contacts are followed.

@@ -37,7 +37,7 @@ pub struct Found {
 }
 
 /// Steps after which an impact that does not end is given up.
-const MOST: u64 = 2_000_000;
+const MAX_STEPS: u64 = 2_000_000;
 
 /// Follows one impact.
 ///
@@ -85,7 +85,7 @@ pub fn follow_from(impact: &Impact, touch: f64) -> Result<Found, SolveError> {
     let mut engine = Engine::new(&grains, domain, law, settings, 1)?;
     let before = engine.grains().kinetic_energy();
     let (mut met, mut pushed) = (false, 0_u64);
-    while engine.steps() < MOST {
+    while engine.steps() < MAX_STEPS {
         // With the tension cut the force ends before the overlap does.
         let pushes = engine.contacts().any(|c| (0..3).map(|k| c.force[k] * c.normal[k]).sum::<f64>() > 0.0);
         let touches = engine.contacts().next().is_some();
@@ -97,8 +97,8 @@ pub fn follow_from(impact: &Impact, touch: f64) -> Result<Found, SolveError> {
         met |= touches;
         engine.step(&Nothing)?;
     }
-    if engine.steps() >= MOST {
-        return Err(ImpactError::NoParting { steps: MOST }.into());
+    if engine.steps() >= MAX_STEPS {
+        return Err(ImpactError::NoParting { steps: MAX_STEPS }.into());
     }
     let all = engine.grains();
     let place = all.places();

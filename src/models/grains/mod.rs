@@ -5,7 +5,7 @@ pub mod case;
 mod error;
 pub(crate) mod impact;
 mod problem;
-pub(crate) mod trials;
+pub(crate) mod verification;
 
 pub use error::ImpactError;
-pub use problem::{Impact, Trial};
+pub use problem::{Impact, Verification};

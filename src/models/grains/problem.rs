@@ -1,7 +1,7 @@
 //! Problems of single grains.
 
-use super::case::{GrainsBedTables, ImpactTables, Target, Trial as Which, TrialTables};
-use super::{bed, impact, trials};
+use super::case::{GrainsBedTables, ImpactTables, Target, VerificationCase as Which, VerificationTables};
+use super::{bed, impact, verification};
 use crate::closures::contact::{LinearSpring, linear_spring};
 use crate::closures::role::Only;
 use crate::dem::GrainBed;
@@ -32,11 +32,11 @@ pub struct Impact {
     pub steps_per_contact: f64,
 }
 
-/// A few grains, held against what is known exactly. All values SI.
+/// A few grains, compared with an exact solution. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Trial {
-    /// what they are held against
-    pub trial: Which,
+pub struct Verification {
+    /// the verification case
+    pub case: Which,
     /// diameter \[m]
     pub d: f64,
     /// density [kg/m3]
@@ -52,7 +52,7 @@ pub struct Trial {
 }
 
 /// Most grains of a case: what a machine of today holds.
-const MOST_GRAINS: f64 = 2e7;
+const MAX_GRAINS: f64 = 2e7;
 
 impl Model for GrainBed {
     const INFO: ModelInfo = ModelInfo { name: "grains", stochastic: true };
@@ -71,10 +71,10 @@ impl Model for GrainBed {
         };
         wide("flow.length", flow.length, 4.0, faults);
         wide("flow.width", flow.width, if flow.side_walls { 1.0 } else { 4.0 }, faults);
-        let possible = (1.0..=MOST_GRAINS).contains(&count);
+        let possible = (1.0..=MAX_GRAINS).contains(&count);
         if !possible {
             let name = "the number of mobile grains";
-            faults.push(("bed.layers", BedFault::GrainRoom { name, value: count, least: 1.0, most: MOST_GRAINS }));
+            faults.push(("bed.layers", BedFault::GrainRoom { name, value: count, least: 1.0, most: MAX_GRAINS }));
         }
         let Only(contact) = closures.contact;
         Some(Self {
@@ -146,14 +146,14 @@ impl Solve for Impact {
     }
 }
 
-impl Model for Trial {
+impl Model for Verification {
     const INFO: ModelInfo = ModelInfo { name: "trial", stochastic: true };
-    type Tables = TrialTables;
+    type Tables = VerificationTables;
 
-    fn build(tables: &TrialTables, _: &mut Faults) -> Option<Self> {
+    fn build(tables: &VerificationTables, _: &mut Faults) -> Option<Self> {
         let Only(contact) = tables.closures.contact;
         Some(Self {
-            trial: tables.model.trial,
+            case: tables.model.trial,
             d: tables.grains.diameter,
             rho_p: tables.grains.density,
             velocity: tables.flow.velocity,
@@ -164,13 +164,13 @@ impl Model for Trial {
     }
 }
 
-impl Solve for Trial {
+impl Solve for Verification {
     fn solve(&self, context: &mut Context<'_>) -> Result<Outcome, Failure> {
-        trials::run(self, context.watch)
+        verification::run(self, context.watch)
     }
 
     fn describe(&self) -> Description {
-        let (equations, laws) = (trials::equations(self), vec![&linear_spring::INFO]);
+        let (equations, laws) = (verification::equations(self), vec![&linear_spring::INFO]);
         Description { form: None, equations, laws }
     }
 

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Load, Pair, Quad, Row, Window};
+use super::{Load, Pair, Quad, Row, Simd, Window};
 
 /// One number.
 #[derive(Clone, Copy, Debug)]
@@ -45,7 +45,7 @@ impl Neg for One {
     }
 }
 
-impl Lanes for One {
+impl Simd for One {
     const WIDTH: usize = 1;
     type Proof = ();
     type Mask = bool;

@@ -45,8 +45,8 @@ pub trait Quad: Copy {
 #[repr(C, align(64))]
 pub struct Load(pub [Row; 2]);
 
-/// One number of each of [`Lanes::WIDTH`] contacts.
-pub trait Lanes:
+/// One number of each of [`Simd::WIDTH`] contacts.
+pub trait Simd:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
     /// contacts at once; divides 8
@@ -78,7 +78,7 @@ pub trait Lanes:
     /// # Safety
     /// `to` takes `WIDTH` numbers.
     unsafe fn pack(self, mask: Self::Mask, to: *mut f64);
-    /// As [`Lanes::pack`], for `WIDTH` words read at `from`.
+    /// As [`Simd::pack`], for `WIDTH` words read at `from`.
     ///
     /// # Safety
     /// `from` holds and `to` takes `WIDTH` words.
@@ -92,7 +92,7 @@ pub trait Lanes:
     /// Rows of the pairs, j plus i.
     ///
     /// # Safety
-    /// As [`Lanes::apart`].
+    /// As [`Simd::apart`].
     unsafe fn together(proof: Self::Proof, rows: &[Row], pairs: *const Pair) -> [Self; 4];
     /// The rows `at`, columns apart.
     ///
@@ -102,7 +102,7 @@ pub trait Lanes:
     /// Writes three columns into the first `count` of the rows `at`; the last column becomes 0.
     ///
     /// # Safety
-    /// As [`Lanes::columns`], and `count` is at most `WIDTH`.
+    /// As [`Simd::columns`], and `count` is at most `WIDTH`.
     unsafe fn put(columns: [Self; 3], rows: &mut [Row], at: *const u64, count: usize);
     /// Adds (-force, spin) to i and (force, spin) to j, for the first `count` of the pairs in their order.
     ///
@@ -198,30 +198,30 @@ pub type Vector<L> = [L; 3];
 
 /// a · b
 #[inline(always)]
-pub fn dot<L: Lanes>(a: Vector<L>, b: Vector<L>) -> L {
+pub fn dot<L: Simd>(a: Vector<L>, b: Vector<L>) -> L {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// a × b
 #[inline(always)]
-pub fn cross<L: Lanes>(a: Vector<L>, b: Vector<L>) -> Vector<L> {
+pub fn cross<L: Simd>(a: Vector<L>, b: Vector<L>) -> Vector<L> {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// k a
 #[inline(always)]
-pub fn scale<L: Lanes>(k: L, a: Vector<L>) -> Vector<L> {
+pub fn scale<L: Simd>(k: L, a: Vector<L>) -> Vector<L> {
     [k * a[0], k * a[1], k * a[2]]
 }
 
 /// a + b
 #[inline(always)]
-pub fn plus<L: Lanes>(a: Vector<L>, b: Vector<L>) -> Vector<L> {
+pub fn plus<L: Simd>(a: Vector<L>, b: Vector<L>) -> Vector<L> {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 /// a - b
 #[inline(always)]
-pub fn minus<L: Lanes>(a: Vector<L>, b: Vector<L>) -> Vector<L> {
+pub fn minus<L: Simd>(a: Vector<L>, b: Vector<L>) -> Vector<L> {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }

@@ -1,4 +1,4 @@
-//! A few grains, held against a closed form or a conservation law: what the engine is known to do exactly.
+//! A few grains, compared with a closed form or a conservation law: verification of the engine.
 
 pub mod clouds;
 pub mod impacts;
@@ -6,22 +6,22 @@ pub mod motion;
 
 use crate::dem::keep::contact_equations;
 use crate::dem::{Engine, LinearSpring};
-use crate::models::grains::Trial;
-use crate::models::grains::case::Trial as Which;
+use crate::models::grains::Verification;
+use crate::models::grains::case::VerificationCase as Which;
 use crate::result::{Balance, Failure, Outcome, Quantity, Results, SolveError, Status, Watch, quantity as q};
 use crate::units::significant;
 
-/// What a trial found.
+/// What a verification case found.
 pub type Findings = Vec<(&'static Quantity, f64)>;
 
-/// Makes the trial of a case.
+/// Runs a verification case.
 ///
 /// # Errors
 /// [`Failure`] if the grains cannot go on.
-pub fn run(trial: &Trial, _: &mut dyn Watch) -> Result<Outcome, Failure> {
+pub fn run(problem: &Verification, _: &mut dyn Watch) -> Result<Outcome, Failure> {
     let mut results = Results::default();
     let mut balances = Vec::new();
-    for (quantity, value) in findings(trial)? {
+    for (quantity, value) in findings(problem)? {
         results.set(quantity, value);
         if *quantity == q::LEDGER_ERROR {
             let how = "kinetic energy against all work, relative to the largest of them; the worst of all runs".into();
@@ -31,21 +31,21 @@ pub fn run(trial: &Trial, _: &mut dyn Watch) -> Result<Outcome, Failure> {
     Ok(Outcome { results, balances, ..crate::dem::outcome::nothing(Status::Done) })
 }
 
-fn findings(trial: &Trial) -> Result<Findings, SolveError> {
-    match trial.trial {
-        Which::HeadOn => impacts::head_on(trial),
-        Which::Oblique => impacts::oblique(trial),
-        Which::Rolling => motion::rolling(trial),
-        Which::Bouncing => motion::bouncing(trial),
-        Which::Stack => motion::stack(trial),
-        Which::Cluster => clouds::cluster(trial),
-        Which::Ledger => clouds::ledger(trial, 1_000_000),
-        Which::Springs => impacts::springs(trial),
+fn findings(problem: &Verification) -> Result<Findings, SolveError> {
+    match problem.case {
+        Which::HeadOn => impacts::head_on(problem),
+        Which::Oblique => impacts::oblique(problem),
+        Which::Rolling => motion::rolling(problem),
+        Which::Bouncing => motion::bouncing(problem),
+        Which::Stack => motion::stack(problem),
+        Which::Cluster => clouds::cluster(problem),
+        Which::Ledger => clouds::ledger(problem, 1_000_000),
+        Which::Springs => impacts::springs(problem),
     }
 }
 
-/// Defect of the account of energies of `engine`, relative to the largest of them.
-fn accounted(engine: &Engine<LinearSpring>) -> f64 {
+/// Defect of the energy balance of `engine`, relative to the largest of them.
+fn energy_defect(engine: &Engine<LinearSpring>) -> f64 {
     let kinetic = engine.grains().kinetic_energy();
     let scale = engine.ledger().scale(kinetic);
     if scale > 0.0 { engine.ledger().defect(kinetic).abs() / scale } else { 0.0 }
@@ -53,9 +53,9 @@ fn accounted(engine: &Engine<LinearSpring>) -> f64 {
 
 /// The equations that are solved, with their numbers.
 #[must_use]
-pub fn equations(trial: &Trial) -> String {
+pub fn equations(problem: &Verification) -> String {
     let n = |x: f64| significant(x, 5);
-    let what = match trial.trial {
+    let what = match problem.case {
         Which::HeadOn => "head-on impacts, e_n from 0.1 to 1",
         Which::Oblique => "oblique impacts at every degree",
         Which::Rolling => "a sphere that slides on a plane until it rolls",
@@ -67,11 +67,11 @@ pub fn equations(trial: &Trial) -> String {
     };
     format!(
         "Trial: {what}; d = {} m, ρ_p = {} kg/m³, v = {} m/s, g = {} m/s².\n\n{}",
-        n(trial.d),
-        n(trial.rho_p),
-        n(trial.velocity),
-        n(trial.g),
-        contact_equations(&trial.contact)
+        n(problem.d),
+        n(problem.rho_p),
+        n(problem.velocity),
+        n(problem.g),
+        contact_equations(&problem.contact)
     )
 }
 

@@ -1,48 +1,48 @@
-//! Rest for the deep bed: layers that hardly creep are held, and woken when the layer above them moves.
+//! Freezing of the deep bed: layers that hardly creep are frozen, and released when the layer above them moves.
 //!
-//! Every `hold_period` the mean way of the grains is taken in layers of one diameter. From the bottom up, layers whose grains went less than
-//! `hold_creep` d on average are at rest. All of them but the uppermost are held: their grains are fixed, pairs of them are not looked at. The
-//! uppermost stays free: it is the watch. If it comes to move, the two layers under it are woken. Held grains carry stress to the
-//! ground that is not averaged; what they would have crept is lost.
+//! Every `hold_period` the mean displacement of the grains is taken in layers of one diameter. From the bottom up, layers whose grains
+//! moved less than `hold_creep` d on average are at rest. All of them but the uppermost are frozen: their grains are fixed, pairs of
+//! them are not computed. The uppermost stays free, as a sensor: if it comes to move, the two layers under it are released. Frozen
+//! grains carry stress to the ground that is not averaged; their creep is neglected.
 
 use crate::dem::checkpoint::{Reader, Writer};
 use crate::dem::engine::Engine;
 use crate::dem::grains::Point;
 use crate::dem::law::ContactLaw;
-use crate::models::coupled::Coupled;
+use crate::models::coupled::{Coupled, Freeze};
 use crate::result::CheckpointError;
 
-/// Layers that are woken at once.
-const WOKEN: f64 = 2.0;
-/// Fewer grains than this are no layer.
-const FEW: usize = 4;
+/// Layers that are released at once.
+const RELEASED: f64 = 2.0;
+/// Fewest grains of a layer.
+const MIN_GRAINS: usize = 4;
 
-/// What is held, and what it is judged by.
+/// The frozen part of the bed, and the criterion by which layers are frozen.
 #[derive(Debug)]
-pub struct Hold {
-    /// mean way of a layer at rest \[m]
+pub struct FrozenBed {
+    /// mean displacement of a layer at rest \[m]
     creep: f64,
-    /// coupling periods between two looks, and before the first
+    /// coupling periods between two checks, and before the first
     every: u64,
     after: u64,
     d: f64,
     periods: [f64; 2],
     /// grains of the bottom, which come first and are fixed for good
     fixed: usize,
-    /// grains below are held \[m]
+    /// grains below are frozen \[m]
     level: f64,
     /// the highest of these levels so far \[m]
     highest: f64,
-    /// centres of all grains at the last look, by name \[m]
+    /// centres of all grains at the last check, by name \[m]
     then: Vec<Point>,
 }
 
-impl Hold {
-    /// Nothing is held yet; `None` if nothing is to be.
+impl FrozenBed {
+    /// Nothing is frozen yet; `None` if nothing is to be.
     pub fn new<C: ContactLaw>(flow: &Coupled, engine: &Engine<C>) -> Option<Self> {
-        let [creep, period, after] = flow.hold?;
+        let Freeze { creep, period, after } = flow.freeze?;
         let d = flow.bed.d;
-        let mut hold = Self {
+        let mut frozen = Self {
             creep: creep * d,
             every: (period / flow.coupling_period).round().max(1.0) as u64,
             after: (after / flow.coupling_period).round() as u64,
@@ -53,19 +53,19 @@ impl Hold {
             highest: 0.0,
             then: Vec::new(),
         };
-        let named = |i: usize| engine.grains().ids[i] as usize >= hold.fixed || engine.grains().is_fixed(i);
+        let named = |i: usize| engine.grains().ids[i] as usize >= frozen.fixed || engine.grains().is_fixed(i);
         debug_assert!((0..engine.grains().len()).all(named), "the grains of the bottom come first");
-        hold.remember(engine);
-        Some(hold)
+        frozen.remember(engine);
+        Some(frozen)
     }
 
-    /// Elevation below which grains are held \[m].
+    /// Elevation below which grains are frozen \[m].
     pub fn level(&self) -> f64 {
         self.level
     }
 
-    /// Elevation below which contacts were not looked at, at some time \[m]; `None` if all were.
-    pub fn blind(&self) -> Option<f64> {
+    /// Elevation below which contacts were not computed, at some time \[m]; `None` if all were.
+    pub fn blind_below(&self) -> Option<f64> {
         (self.highest > 0.0).then_some(self.highest + 0.5 * self.d)
     }
 
@@ -74,8 +74,8 @@ impl Hold {
         self.then = grains.places().into_iter().map(|i| grains.position(i)).collect();
     }
 
-    /// Looks at the layers after period `made`, if it is time to; whether grains were held or let go.
-    pub fn look<C: ContactLaw>(&mut self, made: u64, engine: &mut Engine<C>) -> bool {
+    /// Checks the layers after period `made`, if it is time to; whether grains were frozen or released.
+    pub fn check<C: ContactLaw>(&mut self, made: u64, engine: &mut Engine<C>) -> bool {
         if !made.is_multiple_of(self.every) {
             return false;
         }
@@ -98,11 +98,11 @@ impl Hold {
             layers[k].0 += (0..3).map(|k| way(k) * way(k)).sum::<f64>().sqrt();
             layers[k].1 += 1;
         }
-        let still = |layer: &(f64, usize)| layer.1 >= FEW && layer.0 < self.creep * layer.1 as f64;
+        let still = |layer: &(f64, usize)| layer.1 >= MIN_GRAINS && layer.0 < self.creep * layer.1 as f64;
         let resting = layers.iter().take_while(|layer| still(layer)).count() as f64 * self.d;
-        self.level = if resting > self.level { resting - self.d } else { (self.level - WOKEN * self.d).max(0.0) };
+        self.level = if resting > self.level { resting - self.d } else { (self.level - RELEASED * self.d).max(0.0) };
         self.highest = self.highest.max(self.level);
-        let changed = engine.hold_below(self.level, self.fixed);
+        let changed = engine.freeze_below(self.level, self.fixed);
         self.remember(engine);
         changed
     }
@@ -121,12 +121,12 @@ impl Hold {
         engine: &Engine<C>,
         from: &mut Reader<'_>,
     ) -> Result<Option<Self>, CheckpointError> {
-        let Some(mut hold) = Self::new(flow, engine) else { return Ok(None) };
-        hold.level = from.number()?;
-        hold.highest = from.number()?;
-        for x in hold.then.iter_mut().flatten() {
+        let Some(mut frozen) = Self::new(flow, engine) else { return Ok(None) };
+        frozen.level = from.number()?;
+        frozen.highest = from.number()?;
+        for x in frozen.then.iter_mut().flatten() {
             *x = from.number()?;
         }
-        Ok(Some(hold))
+        Ok(Some(frozen))
     }
 }

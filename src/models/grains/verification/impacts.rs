@@ -1,13 +1,13 @@
 //! Impacts by the hundred: restitution, duration, gross slip, energy.
 
 use super::super::impact::{Found, follow, follow_from};
-use super::{Findings, accounted};
+use super::{Findings, energy_defect};
 use crate::closures::contact::Tension;
 use crate::dem::body::Nothing;
 use crate::dem::keep::law;
 use crate::dem::{Domain, Engine, Grain, Settings, stability};
 use crate::models::grains::case::Target;
-use crate::models::grains::{Impact, Trial};
+use crate::models::grains::{Impact, Verification};
 use crate::result::{SolveError, quantity as q};
 
 /// Safety of the default time step.
@@ -17,19 +17,19 @@ const MOMENTS: u32 = 20;
 /// The same where a contact has few steps.
 const MANY: u32 = 200;
 
-/// The head-on impact of a trial.
-fn head(trial: &Trial, e_n: f64, tension: Tension, target: Target) -> Impact {
-    let mut contact = trial.contact;
+/// The head-on impact of a verification case.
+fn head(problem: &Verification, e_n: f64, tension: Tension, target: Target) -> Impact {
+    let mut contact = problem.contact;
     (contact.e_n, contact.tension) = (e_n, tension);
     Impact {
-        d: trial.d,
-        rho_p: trial.rho_p,
-        velocity: trial.velocity,
+        d: problem.d,
+        rho_p: problem.rho_p,
+        velocity: problem.velocity,
         angle: 0.0,
         spin: 0.0,
         target,
         contact,
-        steps_per_contact: trial.steps_per_contact,
+        steps_per_contact: problem.steps_per_contact,
     }
 }
 
@@ -37,21 +37,21 @@ fn head(trial: &Trial, e_n: f64, tension: Tension, target: Target) -> Impact {
 ///
 /// # Errors
 /// If the grains cannot go on.
-pub fn head_on(trial: &Trial) -> Result<Findings, SolveError> {
+pub fn head_on(problem: &Verification) -> Result<Findings, SolveError> {
     let (mut worst, mut latest, mut energy) = (0.0_f64, 0.0_f64, 0.0_f64);
     for tension in [Tension::Cut, Tension::Kept] {
         for target in [Target::Wall, Target::Fixed, Target::Mobile] {
             for tenth in 1..=10 {
                 let e_n = f64::from(tenth) / 10.0;
-                let found = follow(&head(trial, e_n, tension, target))?;
+                let found = follow(&head(problem, e_n, tension, target))?;
                 worst = worst.max((found.restitution - e_n).abs());
                 energy = energy.max(found.ledger.abs());
                 latest = latest.max((found.duration / found.expected_duration - 1.0).abs());
             }
         }
     }
-    let e_n = trial.contact.e_n;
-    let pair = head(trial, e_n, trial.contact.tension, Target::Mobile);
+    let e_n = problem.contact.e_n;
+    let pair = head(problem, e_n, problem.contact.tension, Target::Mobile);
     // What is left is the moment of the touch within a step: mean over steps that are close.
     let error = |steps: f64| {
         let sum = (0..MOMENTS).try_fold(0.0, |sum, i| {
@@ -61,8 +61,8 @@ pub fn head_on(trial: &Trial) -> Result<Findings, SolveError> {
         sum.map(|sum| sum / f64::from(MOMENTS))
     };
     let order = (error(25.0)? / error(200.0)?).log2() / 3.0;
-    let mass = Grain::at_rest([0.0; 3], 0.5 * trial.d, trial.rho_p).mass();
-    let step = SAFETY * stability::of_pair(&law(&trial.contact)?, 0.5 * mass);
+    let mass = Grain::at_rest([0.0; 3], 0.5 * problem.d, problem.rho_p).mass();
+    let step = SAFETY * stability::of_pair(&law(&problem.contact)?, 0.5 * mass);
     let steps_per_contact = follow(&pair)?.expected_duration / step;
     let (mut sum, mut spread) = (0.0, 0.0_f64);
     for i in 0..MANY {
@@ -85,36 +85,36 @@ pub fn head_on(trial: &Trial) -> Result<Findings, SolveError> {
 ///
 /// # Errors
 /// If the grains cannot go on.
-pub fn at_angle(trial: &Trial, e_n: f64, mu: f64, degrees: f64, steps: f64) -> Result<Found, SolveError> {
-    let mut one = head(trial, e_n, trial.contact.tension, Target::Wall);
+pub fn at_angle(problem: &Verification, e_n: f64, mu: f64, degrees: f64, steps: f64) -> Result<Found, SolveError> {
+    let mut one = head(problem, e_n, problem.contact.tension, Target::Wall);
     one.contact.mu = mu;
     one.angle = degrees.to_radians();
     one.steps_per_contact = steps;
     follow(&one)
 }
 
-/// The gross-slip law with the contact of the trial, and energy with many contacts, at all angles.
+/// The gross-slip law with the contact of the case, and energy with many contacts, at all angles.
 ///
 /// # Errors
 /// If the grains cannot go on.
-pub fn oblique(trial: &Trial) -> Result<Findings, SolveError> {
-    let (e_n, mu) = (trial.contact.e_n, trial.contact.mu);
+pub fn oblique(problem: &Verification) -> Result<Findings, SolveError> {
+    let (e_n, mu) = (problem.contact.e_n, problem.contact.mu);
     let (mut slip, mut spin, mut angles, mut energy) = (0.0_f64, 0.0_f64, 0.0, 0.0_f64);
     for degrees in 1..=89 {
         let degrees = f64::from(degrees);
-        let found = at_angle(trial, e_n, mu, degrees, trial.steps_per_contact)?;
+        let found = at_angle(problem, e_n, mu, degrees, problem.steps_per_contact)?;
         let Some(expected) = found.gross_slip else { continue };
-        let change = mu * (1.0 + e_n) * trial.velocity * degrees.to_radians().cos();
+        let change = mu * (1.0 + e_n) * problem.velocity * degrees.to_radians().cos();
         energy = energy.max(found.ledger.abs());
         slip = slip.max((found.tangential - expected).abs() / change);
-        spin = spin.max((found.spin / (2.5 * change / (0.5 * trial.d)) - 1.0).abs());
+        spin = spin.max((found.spin / (2.5 * change / (0.5 * problem.d)) - 1.0).abs());
         angles += 1.0;
     }
     let mut gained = f64::NEG_INFINITY;
     for e_n in [0.1, 0.5, 0.9, 1.0] {
         for mu in [0.0, 0.1, 0.4, 2.0] {
             for degrees in 0..=89 {
-                gained = gained.max(at_angle(trial, e_n, mu, f64::from(degrees), 50.0)?.gained);
+                gained = gained.max(at_angle(problem, e_n, mu, f64::from(degrees), 50.0)?.gained);
             }
         }
     }
@@ -131,19 +131,19 @@ pub fn oblique(trial: &Trial) -> Result<Findings, SolveError> {
 ///
 /// # Errors
 /// If the grains cannot go on.
-pub fn springs(trial: &Trial) -> Result<Findings, SolveError> {
-    let mut contact = trial.contact;
+pub fn springs(problem: &Verification) -> Result<Findings, SolveError> {
+    let mut contact = problem.contact;
     (contact.e_n, contact.mu) = (1.0, 0.0);
     let law = law(&contact)?;
-    let r = 0.5 * trial.d;
-    let still = Grain::at_rest([0.0; 3], r, trial.rho_p);
+    let r = 0.5 * problem.d;
+    let still = Grain::at_rest([0.0; 3], r, problem.rho_p);
     let mass = still.mass();
     let lasts = std::f64::consts::PI / (2.0 * contact.k_n / mass).sqrt();
     let mut energy = 0.0_f64;
     let mut defect = |dt: f64| -> Result<f64, SolveError> {
-        let gap = 1e-3 * trial.velocity * dt;
-        let comes = Grain { velocity: [-trial.velocity, 0.0, 0.0], position: [2.0 * r + gap, 0.0, 0.0], ..still };
-        let settings = Settings::new(dt, [0.0; 3], trial.d);
+        let gap = 1e-3 * problem.velocity * dt;
+        let comes = Grain { velocity: [-problem.velocity, 0.0, 0.0], position: [2.0 * r + gap, 0.0, 0.0], ..still };
+        let settings = Settings::new(dt, [0.0; 3], problem.d);
         let mut engine = Engine::new(&[still, comes], Domain::default(), law, settings, 1)?;
         let mut before = engine.grains().kinetic_energy();
         let initial = before + engine.spring_energy();
@@ -156,7 +156,7 @@ pub fn springs(trial: &Trial) -> Result<Findings, SolveError> {
             worst = worst.max((0.5 * (before + after) + spring - initial).abs() / initial);
             before = after;
         }
-        energy = energy.max(accounted(&engine));
+        energy = energy.max(energy_defect(&engine));
         Ok(worst)
     };
     // How far into a step the touch falls differs: the worst of steps that are close.

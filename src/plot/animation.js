@@ -1,7 +1,7 @@
-// Plays the film of the grains on its canvas, over and over.
+// Plays the animation of the grains on its canvas, over and over.
 (() => {
 "use strict";
-const RATE = 25; // pictures a second
+const RATE = 25; // frames a second
 const TALLEST = 440; // pixels
 
 /** The colour of a share of the largest velocity. */
@@ -14,11 +14,11 @@ function shades(colours) {
   });
 }
 
-class Film {
+class Animation {
   constructor(figure) {
     this.canvas = figure.querySelector("canvas");
     const d = this.canvas.dataset;
-    for (const name of ["begin", "interval", "pictures", "grains", "radius", "length", "shown", "bottom", "top"]) this[name] = Number(d[name]);
+    for (const name of ["begin", "interval", "frames", "grains", "radius", "length", "shown", "bottom", "top"]) this[name] = Number(d[name]);
     const bytes = Uint8Array.from(atob(d.places), c => c.charCodeAt(0));
     this.places = new Uint16Array(bytes.buffer);
     this.shades = shades(d.colours);
@@ -27,7 +27,7 @@ class Film {
     this.at = 0;
     this.playing = !matchMedia("(prefers-reduced-motion: reduce)").matches;
     figure.hidden = false;
-    const still = document.getElementById("picture");
+    const still = document.getElementById("drawing");
     if (still) still.hidden = true;
     this.button.addEventListener("click", () => this.play(!this.playing));
     this.slider.addEventListener("input", () => { this.play(false); this.at = Number(this.slider.value); this.draw(); });
@@ -37,23 +37,23 @@ class Film {
     this.draw();
   }
 
-  x(picture, grain) { return this.places[2 * (picture * this.grains + grain)] / 65536 * this.length; }
-  z(picture, grain) { return this.bottom + this.places[2 * (picture * this.grains + grain) + 1] / 65535 * (this.top - this.bottom); }
+  x(frame, grain) { return this.places[2 * (frame * this.grains + grain)] / 65536 * this.length; }
+  z(frame, grain) { return this.bottom + this.places[2 * (frame * this.grains + grain) + 1] / 65535 * (this.top - this.bottom); }
 
-  /** Way along the flow to the next picture; the length is a period. */
-  way(picture, grain) {
-    const step = (this.x(picture + 1, grain) - this.x(picture, grain)) / this.length;
+  /** Way along the flow to the next frame; the length is a period. */
+  way(frame, grain) {
+    const step = (this.x(frame + 1, grain) - this.x(frame, grain)) / this.length;
     return (step - Math.round(step)) * this.length;
   }
 
   /** The part that is shown, and the velocities at the ends of the colours. */
   measure() {
-    const speeds = new Float64Array((this.pictures - 1) * this.grains);
+    const speeds = new Float64Array((this.frames - 1) * this.grains);
     let [low, high] = [Infinity, -Infinity];
-    for (let p = 0; p < this.pictures; p++) for (let g = 0; g < this.grains; g++) {
+    for (let p = 0; p < this.frames; p++) for (let g = 0; g < this.grains; g++) {
       const z = this.z(p, g);
       [low, high] = [Math.min(low, z), Math.max(high, z)];
-      if (p + 1 < this.pictures) speeds[p * this.grains + g] = this.way(p, g) / this.interval;
+      if (p + 1 < this.frames) speeds[p * this.grains + g] = this.way(p, g) / this.interval;
     }
     speeds.sort();
     // Slower than this is the rounding of the places.
@@ -73,7 +73,7 @@ class Film {
 
   go(now) {
     if (!this.playing) return;
-    this.at = (this.at + (now - this.last) / 1000 * RATE) % (this.pictures - 1);
+    this.at = (this.at + (now - this.last) / 1000 * RATE) % (this.frames - 1);
     this.last = now;
     const { top, bottom } = this.canvas.getBoundingClientRect();
     if (bottom > 0 && top < innerHeight) this.draw();
@@ -85,7 +85,7 @@ class Film {
     const room = this.canvas.parentElement.clientWidth;
     const scale = Math.min(room / this.shown, TALLEST / (this.high - this.low));
     const [width, height] = [scale * this.shown, scale * (this.high - this.low)];
-    // Under a narrow picture the length has a line of its own.
+    // Under a narrow canvas the length has a line of its own.
     const narrow = width < 480;
     const [wide, below] = [Math.max(width, Math.min(room, 300)), narrow ? 44 : 26];
     const dense = devicePixelRatio || 1;
@@ -94,8 +94,8 @@ class Film {
     this.canvas.style.width = `${wide}px`;
     const to = this.canvas.getContext("2d");
     to.scale(dense, dense);
-    const [picture, r] = [Math.min(Math.floor(this.at), this.pictures - 2), scale * this.radius];
-    const part = this.at - picture;
+    const [frame, r] = [Math.min(Math.floor(this.at), this.frames - 2), scale * this.radius];
+    const part = this.at - frame;
     to.save();
     to.beginPath();
     to.rect(0, 0, width, height);
@@ -103,9 +103,9 @@ class Film {
     to.strokeStyle = style.getPropertyValue("--paper");
     to.lineWidth = Math.max(0.6, 0.12 * r);
     for (let g = 0; g < this.grains; g++) {
-      const way = this.way(picture, g);
-      const x = this.x(picture, g) + part * way;
-      const z = (1 - part) * this.z(picture, g) + part * this.z(picture + 1, g);
+      const way = this.way(frame, g);
+      const x = this.x(frame, g) + part * way;
+      const z = (1 - part) * this.z(frame, g) + part * this.z(frame + 1, g);
       const share = (way / this.interval - this.slow) / (this.fast - this.slow || 1);
       to.fillStyle = this.shades[Math.round(63 * Math.min(1, Math.max(0, share)))];
       // What leaves at one end of the period comes in at the other.
@@ -133,10 +133,10 @@ class Film {
     to.fillText(`length ${this.shown.toPrecision(3)} m${whole}`, narrow ? 0 : width, height + (narrow ? 36 : 18));
     this.slider.value = this.at;
     const slower = 1 / (RATE * this.interval);
-    const pace = slower < 1 ? `${(1 / slower).toPrecision(2)} times faster` : `${slower.toPrecision(2)} times slower`;
-    this.clock.textContent = `t = ${(this.begin + this.at * this.interval).toFixed(3)} s, ${pace} than in nature`;
+    const rate = slower < 1 ? `${(1 / slower).toPrecision(2)} times faster` : `${slower.toPrecision(2)} times slower`;
+    this.clock.textContent = `t = ${(this.begin + this.at * this.interval).toFixed(3)} s, ${rate} than in nature`;
   }
 }
 
-for (const figure of document.querySelectorAll("figure#motion")) new Film(figure);
+for (const figure of document.querySelectorAll("figure#animation")) new Animation(figure);
 })();

@@ -1,8 +1,8 @@
-//! Where a coupled flow begins: the relief of its bottom, what pulls the grains, and the level of its bed.
+//! Where a coupled flow begins: the relief of its bottom, the weight of its grains, and the level of its bed.
 
 use crate::dem::grains::{Grain, Point};
 use crate::dem::pack;
-use crate::models::coupled::Coupled;
+use crate::models::coupled::{Coupled, Relief};
 use crate::runtime::rng::Stream;
 
 /// Stream of random numbers of the relief.
@@ -10,7 +10,7 @@ const RELIEF: u64 = 3;
 
 /// Fixed grains side by side at random elevations in steps; none on another bottom.
 pub(super) fn relief(flow: &Coupled) -> Vec<Grain> {
-    let (largest, step) = flow.relief;
+    let Relief { largest, step } = flow.relief;
     let mut fixed = pack::bottom(&flow.bed);
     // Steps on either side of the mean: with an even number of them, none is at the mean.
     let kinds = (2.0 * largest / step).round() + 1.0;

@@ -4,7 +4,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Load, Pair, Quad, Row, Window};
+use super::{Load, Pair, Quad, Row, Simd, Window};
 
 /// Evidence that the machine has AVX2: nothing else makes one, and without it there is no [`Four`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,7 +102,7 @@ unsafe fn packed(value: __m256i, mask: __m256d) -> __m256i {
     }
 }
 
-impl Lanes for Four {
+impl Simd for Four {
     const WIDTH: usize = 4;
     type Proof = Proof;
     type Mask = __m256d;

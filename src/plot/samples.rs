@@ -235,11 +235,11 @@ pub(super) fn convergence() -> Figure {
     }
 }
 
-/// Writes all trials as SVG and PNG where `BEDLOAD_TRIALS` points, to be looked at.
+/// Writes all samples as SVG and PNG where `BEDLOAD_SAMPLES` points, to be looked at.
 #[test]
 #[ignore = "draws files to be looked at"]
-fn draw_the_trials() {
-    let Ok(folder) = std::env::var("BEDLOAD_TRIALS") else { return };
+fn draw_the_samples() {
+    let Ok(folder) = std::env::var("BEDLOAD_SAMPLES") else { return };
     let folder = std::path::Path::new(&folder);
     let equations = "fluid       0 = f + d/dz[(1 + 5/2 φ) η dU/dz] + dτ_p/dz\ngrains      |τ_p| ≤ μ_s P_p,  dP_p/dz = −φ (ρ_p − ρ_f) g\ntransport   q_p = ∫ φ u_p dz";
     let statement = Statement { equations: equations.into(), laws: Vec::new() };
@@ -253,8 +253,8 @@ fn draw_the_trials() {
         let page = crate::plot::Page {
             summary: &summary,
             figures: &figures,
-            picture: None,
-            motion: None,
+            drawing: None,
+            animation: None,
             statement: &statement,
             case_toml,
             notes: &notes,

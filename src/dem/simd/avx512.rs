@@ -4,7 +4,7 @@
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use super::{Lanes, Load, Pair, Row, Window};
+use super::{Load, Pair, Row, Simd, Window};
 
 /// Evidence that the machine has AVX-512 F, DQ and VL: nothing else makes one, and without it there is no [`Eight`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -109,7 +109,7 @@ unsafe fn both(rows: &[Row], low: usize, high: usize) -> __m512d {
     }
 }
 
-impl Lanes for Eight {
+impl Simd for Eight {
     const WIDTH: usize = 8;
     type Proof = Proof;
     type Mask = __mmask8;

@@ -1,10 +1,10 @@
-//! Grains of several sizes that fly about and collide: what is conserved, and what is accounted for.
+//! Grains of several sizes that fly about and collide: conserved quantities, and the energy balance.
 
-use super::{Findings, accounted};
+use super::{Findings, energy_defect};
 use crate::dem::body::Nothing;
 use crate::dem::keep::law;
 use crate::dem::{Domain, Engine, Grain, LinearSpring, Point, Settings, Wall};
-use crate::models::grains::Trial;
+use crate::models::grains::Verification;
 use crate::result::{SolveError, quantity as q};
 use crate::runtime::rng::Stream;
 
@@ -46,21 +46,21 @@ pub fn momenta(engine: &Engine<LinearSpring>) -> (Point, Point, [f64; 2]) {
     (p, l, scale)
 }
 
-fn step(trial: &Trial, law: &LinearSpring) -> f64 {
-    let mass = Grain::at_rest([0.0; 3], 0.5 * trial.d, trial.rho_p).mass();
-    std::f64::consts::PI * (0.5 * mass / law.k_n).sqrt() / trial.steps_per_contact
+fn step(problem: &Verification, law: &LinearSpring) -> f64 {
+    let mass = Grain::at_rest([0.0; 3], 0.5 * problem.d, problem.rho_p).mass();
+    std::f64::consts::PI * (0.5 * mass / law.k_n).sqrt() / problem.steps_per_contact
 }
 
 /// Momentum and angular momentum of a free cluster, momentum of a periodic gas.
 ///
 /// # Errors
 /// If the grains cannot go on.
-pub fn cluster(trial: &Trial) -> Result<Findings, SolveError> {
-    let law = law(&trial.contact)?;
-    let of = Grain::at_rest([0.0; 3], 0.5 * trial.d, trial.rho_p);
-    let settings = Settings::new(step(trial, &law), [0.0; 3], trial.d);
-    let side = 8.3 * trial.d;
-    let grains = cloud(200, side, 0.3, &of, trial.velocity);
+pub fn cluster(problem: &Verification) -> Result<Findings, SolveError> {
+    let law = law(&problem.contact)?;
+    let of = Grain::at_rest([0.0; 3], 0.5 * problem.d, problem.rho_p);
+    let settings = Settings::new(step(problem, &law), [0.0; 3], problem.d);
+    let side = 8.3 * problem.d;
+    let grains = cloud(200, side, 0.3, &of, problem.velocity);
     let (mut linear, mut angular, mut energy) = (0.0_f64, 0.0_f64, 0.0_f64);
     for periodic in [false, true] {
         let period = periodic.then_some(side);
@@ -71,7 +71,7 @@ pub fn cluster(trial: &Trial) -> Result<Findings, SolveError> {
         for _ in 0..2000 {
             engine.step(&Nothing)?;
         }
-        energy = energy.max(accounted(&engine));
+        energy = energy.max(energy_defect(&engine));
         let (p, l, _) = momenta(&engine);
         for k in 0..3 {
             linear = linear.max((p[k] - p0[k]).abs() / scale[0]);
@@ -83,23 +83,23 @@ pub fn cluster(trial: &Trial) -> Result<Findings, SolveError> {
     Ok(vec![(&q::MOMENTUM_ERROR, linear), (&q::ANGULAR_MOMENTUM_ERROR, angular), (&q::LEDGER_ERROR, energy)])
 }
 
-/// The account of energies of eight grains that bounce and collide on a tilted plane, after `steps` steps.
+/// The energy balance of eight grains that bounce and collide on a tilted plane, after `steps` steps.
 ///
 /// # Errors
 /// If the grains cannot go on.
-pub fn ledger(trial: &Trial, steps: usize) -> Result<Findings, SolveError> {
-    let law = law(&trial.contact)?;
-    let of = Grain::at_rest([0.0; 3], 0.5 * trial.d, trial.rho_p);
-    let side = 5.0 * trial.d;
-    let settings = Settings::new(step(trial, &law), [0.1 * trial.g, 0.0, -trial.g], trial.d);
+pub fn ledger(problem: &Verification, steps: usize) -> Result<Findings, SolveError> {
+    let law = law(&problem.contact)?;
+    let of = Grain::at_rest([0.0; 3], 0.5 * problem.d, problem.rho_p);
+    let side = 5.0 * problem.d;
+    let settings = Settings::new(step(problem, &law), [0.1 * problem.g, 0.0, -problem.g], problem.d);
     let plane = vec![Wall::through([0.0; 3], [0.0, 0.0, 1.0])];
     let domain = Domain { periods: [Some(side), Some(side)], walls: plane };
-    let mut engine = Engine::new(&cloud(8, side, 0.2, &of, trial.velocity), domain, law, settings, 1)?;
+    let mut engine = Engine::new(&cloud(8, side, 0.2, &of, problem.velocity), domain, law, settings, 1)?;
     for _ in 0..steps {
         engine.step(&Nothing)?;
     }
     Ok(vec![
-        (&q::LEDGER_ERROR, accounted(&engine)),
+        (&q::LEDGER_ERROR, energy_defect(&engine)),
         (&q::MOMENTUM_ERROR, engine.ledger().momentum_defect(engine.grains().momentum())),
     ])
 }

@@ -1,20 +1,21 @@
-//! A film of grains seen from the side: a few pictures, small enough to stand in a page.
+//! An animation of grains seen from the side: a few frames, small enough to stand in a page.
 
 use serde::{Deserialize, Serialize};
 
 /// Where some grains were at evenly spaced moments. As a file it is JSON.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Motion {
-    /// version of the layout: [`Motion::FORMAT`]
+pub struct Animation {
+    /// version of the layout: [`Animation::FORMAT`]
     pub format: u32,
-    /// time of the flow at the first picture \[s]
+    /// time of the flow at the first frame \[s]
     pub begin_s: f64,
-    /// time between two pictures \[s]
+    /// time between two frames \[s]
     pub interval_s: f64,
-    /// number of pictures
-    pub pictures: usize,
-    /// number of grains in each of them
+    /// number of frames
+    #[serde(rename = "pictures")]
+    pub frames: usize,
+    /// number of grains in each frame
     pub grains: usize,
     /// radius of the grains \[m]
     pub radius_m: f64,
@@ -27,26 +28,26 @@ pub struct Motion {
     /// elevation of the largest \[m]
     pub top_m: f64,
     /// base64 of 16-bit numbers, the low byte first: x/`length_m` in 65536ths and z in 65535ths of the way from
-    /// `bottom_m` to `top_m`, of one grain after the other, the farthest from the viewer first, picture after picture
+    /// `bottom_m` to `top_m`, of one grain after the other, the farthest from the viewer first, frame after frame
     pub places: String,
 }
 
-impl Motion {
+impl Animation {
     /// Version of the layout.
     pub const FORMAT: u32 = 1;
     /// A bed longer than so many of its heights is shown from its beginning to there \[1].
     pub const LONGEST: f64 = 12.0;
 
-    /// Whether it is of this format, its numbers make sense, and there is a place for each grain in each picture.
+    /// Whether it is of this format, its numbers make sense, and there is a place for each grain in each frame.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         let positive = [self.interval_s, self.radius_m, self.length_m, self.shown_m, self.top_m - self.bottom_m];
-        let bytes = self.pictures.checked_mul(self.grains).and_then(|places| places.checked_mul(4));
+        let bytes = self.frames.checked_mul(self.grains).and_then(|places| places.checked_mul(4));
         let characters = bytes.and_then(|bytes| bytes.div_ceil(3).checked_mul(4));
         self.format == Self::FORMAT
             && self.begin_s.is_finite()
             && positive.iter().all(|x| x.is_finite() && *x > 0.0)
-            && self.pictures > 1
+            && self.frames > 1
             && self.grains > 0
             && characters == Some(self.places.len())
             && self.places.bytes().all(|b| LETTERS.contains(&b) || b == b'=')
@@ -93,11 +94,11 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_together_is_unsound() {
-        let sound = Motion {
-            format: Motion::FORMAT,
+        let sound = Animation {
+            format: Animation::FORMAT,
             begin_s: 0.0,
             interval_s: 0.01,
-            pictures: 2,
+            frames: 2,
             grains: 3,
             radius_m: 0.003,
             length_m: 0.1,
@@ -108,16 +109,16 @@ mod tests {
         };
         assert!(sound.is_sound());
         let text = serde_json::to_string(&sound).unwrap();
-        assert_eq!(serde_json::from_str::<Motion>(&text).unwrap(), sound);
+        assert_eq!(serde_json::from_str::<Animation>(&text).unwrap(), sound);
         let hostile = "<script>".repeat(4);
         for spoilt in [
-            Motion { places: hostile, ..sound.clone() },
-            Motion { grains: 4, ..sound.clone() },
-            Motion { grains: usize::MAX, ..sound.clone() },
-            Motion { pictures: 1, grains: 6, ..sound.clone() },
-            Motion { top_m: -0.01, ..sound.clone() },
-            Motion { interval_s: f64::NAN, ..sound.clone() },
-            Motion { format: 2, ..sound.clone() },
+            Animation { places: hostile, ..sound.clone() },
+            Animation { grains: 4, ..sound.clone() },
+            Animation { grains: usize::MAX, ..sound.clone() },
+            Animation { frames: 1, grains: 6, ..sound.clone() },
+            Animation { top_m: -0.01, ..sound.clone() },
+            Animation { interval_s: f64::NAN, ..sound.clone() },
+            Animation { format: 2, ..sound.clone() },
         ] {
             assert!(!spoilt.is_sound(), "{spoilt:?}");
         }

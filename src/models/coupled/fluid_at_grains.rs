@@ -1,14 +1,14 @@
-//! The fluid as the grains feel it between two of its solutions: velocity and hindrance by cells, eddies by grains.
+//! Fluid velocity at the grains between two solutions of the fluid: mean and hindrance by cells, eddies by grains.
 
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 use crate::closures::drag::DallavalleGrain;
-use crate::dem::body::{Body, Seen};
+use crate::dem::body::{Body, GrainState};
 use crate::dem::grains::Point;
 
 /// Cells of equal height from z = 0 to the free surface, and what each grain carries with it.
 #[derive(Debug)]
-pub struct Felt {
+pub struct FluidAtGrains {
     law: DallavalleGrain,
     /// of [`DallavalleGrain::viscous`] [m/s]
     viscous: f64,
@@ -30,7 +30,7 @@ pub struct Dragged {
     pub slope: f64,
 }
 
-impl Felt {
+impl FluidAtGrains {
     /// Clear fluid at rest in `cells` cells of height `height` \[m], for `grains` grains.
     #[must_use]
     pub fn new(law: DallavalleGrain, viscous: f64, cells: usize, height: f64, grains: usize) -> Self {
@@ -102,10 +102,10 @@ impl Felt {
     }
 }
 
-impl Body for Felt {
+impl Body for FluidAtGrains {
     // Each grain is one thread's: relaxed words are plain loads and stores.
     #[inline(always)]
-    fn force(&self, grain: &Seen) -> Point {
+    fn force(&self, grain: &GrainState) -> Point {
         let (w, size) = self.slip(grain.id, grain.position[2], grain.velocity);
         let speed = (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]).sqrt();
         let strength = size * self.law.rate(speed, self.viscous);
