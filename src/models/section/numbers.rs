@@ -2,7 +2,7 @@
 
 use super::duct::{Divided, Filling};
 use super::element::quadratic;
-use super::programme::length;
+use super::program::length;
 use super::solve::Solution;
 
 /// Velocity over the largest one below which material counts as being at rest.
@@ -136,7 +136,7 @@ struct Areas {
 /// yield stress; the stress of single points oscillates.
 fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
     let divided = &solution.divided;
-    let (programme, mesh, solved) = (&divided.programme, &divided.mesh, &solution.solved);
+    let (program, mesh, solved) = (&divided.program, &divided.mesh, &solution.solved);
     let viscosity = match divided.duct.filling {
         Filling::Bingham(_) => Some(1.0),
         Filling::Bed { e, k: None, .. } => Some(e),
@@ -148,7 +148,7 @@ fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
         let nodes = mesh.element(element);
         nodes.iter().for_each(|node| all[*node] += 1.0);
         let from = 9 * element;
-        let Some(yielding) = programme.points.get(from..from + 9) else {
+        let Some(yielding) = program.points.get(from..from + 9) else {
             nodes.iter().for_each(|node| ratio[*node] += LARGE);
             continue;
         };
@@ -176,13 +176,13 @@ fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
 
 /// Dissipation over the work of the drive, minus 1; 0 where nothing moves.
 fn power(solution: &Solution) -> f64 {
-    let (programme, solved) = (&solution.divided.programme, &solution.solved);
-    let mut kx = vec![0.0; programme.size()];
-    programme.pattern.multiply(&programme.base, &solved.x, &mut kx);
+    let (program, solved) = (&solution.divided.program, &solution.solved);
+    let mut kx = vec![0.0; program.size()];
+    program.pattern.multiply(&program.base, &solved.x, &mut kx);
     let viscous: f64 = kx.iter().zip(&solved.x).map(|(k, x)| k * x).sum();
-    let plastic: f64 = (programme.points.iter().zip(&solved.g).zip(&solved.q))
+    let plastic: f64 = (program.points.iter().zip(&solved.g).zip(&solved.q))
         .map(|((p, g), q)| p.carried * g.iter().zip(q).map(|(g, q)| g * q).sum::<f64>())
         .sum();
-    let work: f64 = programme.load.iter().zip(&solved.x).map(|(b, x)| b * x).sum();
+    let work: f64 = program.load.iter().zip(&solved.x).map(|(b, x)| b * x).sum();
     if work > 0.0 { (viscous + plastic) / work - 1.0 } else { 0.0 }
 }
