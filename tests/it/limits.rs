@@ -60,7 +60,7 @@ fn beds_move_as_a_whole_where_the_balance_says() {
 }
 
 #[test]
-fn locked_layers_are_no_solution() {
+fn jammed_layers_are_no_solution() {
     // Packed grains with an infinite viscosity carry any stress: the discrete equations have solutions in which nothing moves.
     pinned("sheet_1d_limit_newton", "flow.shields", "0.25", "0.05", "locked");
     let (exit, found) = run("sheet_1d_limit_pseudotime", "flow.shields=0.05", &["solver.time_step=1e-2"]);
@@ -80,7 +80,7 @@ fn the_cut_under_the_interface_reaches_the_change_of_type() {
 }
 
 #[test]
-fn the_iteration_needs_its_turns_and_its_steps() {
+fn the_iteration_needs_enough_iterations_and_short_steps() {
     pinned("sheet_1d_limit_pseudotime", "solver.time_step", "2.2e-3", "1.3e-3", "not-converged");
 }
 
