@@ -161,7 +161,7 @@ enum CliError {
     Red(usize),
     /// stopped by the user: 4. The answer for `--json`, and whether the folder keeps an earlier run
     Stopped(Value, bool),
-    /// an argument that clap cannot judge: 2
+    /// an argument that clap cannot accept: 2
     Usage { message: String, hint: String },
     /// standard output or a file: 1
     Io(io::Error),

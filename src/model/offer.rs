@@ -197,13 +197,13 @@ pub struct Term {
     pub what: &'static str,
     /// where its threshold comes from
     pub source: &'static str,
-    /// how it is judged
+    /// how it is assessed
     pub test: TermTest,
     /// the flow without it, where another model may then serve
     pub dropped: Option<fn(&mut Flow)>,
 }
 
-/// How a term is judged.
+/// How a term is assessed.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum TermTest {

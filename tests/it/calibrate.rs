@@ -87,7 +87,7 @@ impl Twin {
         let data = data::parse(&self.measured(truth, seed), "twin", "twin.csv").unwrap();
         let target = Target::of(&data, truth, &[], &[], self.fit.len()).unwrap();
         let fit = parameters.fit(&target, &Silent).unwrap();
-        let told = fit.jacobian.as_ref().and_then(|j| Statistics::of(&fit.residuals, j, &fit.held, true));
+        let told = fit.jacobian.as_ref().and_then(|j| Statistics::of(&fit.residuals, j, &fit.at_bound, true));
         (parameters, fit, told)
     }
 
