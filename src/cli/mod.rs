@@ -165,7 +165,7 @@ enum CliError {
     Usage { message: String, hint: String },
     /// standard output or a file: 1
     Io(io::Error),
-    /// everything has been said: only the code is left
+    /// everything has been reported: only the code is left
     Quiet(u8),
 }
 

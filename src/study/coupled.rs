@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn with_noise_the_errors_cover_the_truth() {
+    fn with_noise_the_errors_cover_the_exact_value() {
         let (found, errors) = fit(&law(&THETA, 0.03)).unwrap();
         for ((a, b), e) in found.numbers().into_iter().zip([9.0, 0.04, 1.5]).zip(errors) {
             assert!((a - b).abs() < 3.0 * e && e > 1e-4, "{found:?} ± {errors:?}");

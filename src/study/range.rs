@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said() {
+    fn what_is_wrong_is_reported() {
         for (argument, words) in [
             ("a.b", "no ="),
             ("b=1,2", "not table.key"),

@@ -92,7 +92,7 @@ fn limits_that_fail_nothing_are_found_too() {
     assert_eq!(limit["class"], "holds, but inaccurate");
     assert!(limit["holds"].as_f64().unwrap() > 5e-7 && limit["fails"].as_f64().unwrap() < 1.1e-6, "{limit}");
     assert_eq!(found["facts"]["predicted"].as_f64(), Some(1.06e-6));
-    // An ill-posed film is solved in one dimension, and says so.
+    // An ill-posed film is solved in one dimension, and flagged.
     let posed = |slope: &str| {
         let (exit, found) = run("exact_1d_limit_posed", slope, &[]);
         assert_eq!(exit, 0);

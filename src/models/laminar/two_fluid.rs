@@ -36,7 +36,7 @@ pub struct Coupled<'a> {
     pub bed: usize,
     /// drive
     pub f: f64,
-    /// how the fluid feels the elements of the bed: [`Coupled::seepages`]
+    /// forces of the elements of the bed on the fluid: [`Coupled::seepages`]
     pub seepages: &'a [Seepage],
     /// permeability of each element of the bed
     pub k: &'a [f64],
@@ -71,7 +71,7 @@ const MAX_ITERATIONS: usize = 200;
 /// Residual of the momentum, relative to the drive, that round-off allows.
 const ROUND_OFF: f64 = 1e-13;
 
-/// How the fluid feels one element of the bed: stress in its middle `e w' + middle (V_above - V_below)`, drag on the half at a
+/// Forces of one element of the bed on the fluid: stress in its middle `e w' + middle (V_above - V_below)`, drag on the half at a
 /// node `f h/2 + own V_node + other V_opposite`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seepage {
@@ -81,7 +81,7 @@ pub struct Seepage {
 }
 
 impl Coupled<'_> {
-    /// How the fluid feels each element of the bed; the lowest `fitted` ones are fitted to exponentials.
+    /// Forces of each element of the bed on the fluid; the lowest `fitted` ones are fitted to exponentials.
     #[must_use]
     pub fn seepages(mesh: &Mesh, elements: &[Element], k: &[f64], fitted: usize) -> Vec<Seepage> {
         let seepage = |(i, permeability): (usize, &f64)| {

@@ -4,6 +4,7 @@ use super::duct::{Divided, Filling};
 use super::element::quadratic;
 use super::program::length;
 use super::solve::Solution;
+use crate::models::exact::bed_results::Maximum;
 
 /// Velocity over the largest one below which material counts as being at rest.
 const REST: f64 = 1e-6;
@@ -21,8 +22,8 @@ pub struct Numbers {
     pub clear: f64,
     /// integral of the velocity of the grains over the bed
     pub grains: f64,
-    /// level and size of the largest velocity, on the symmetry plane
-    pub u_max: (f64, f64),
+    /// largest velocity, on the symmetry plane
+    pub u_max: Maximum,
     /// area that moves without shear
     pub plug: f64,
     /// area at rest
@@ -48,9 +49,9 @@ impl Numbers {
         let (mesh, x) = (&divided.mesh, &solution.solved.x);
         let (u, w) = (divided.velocity(x), divided.grains(x));
         let u_max = largest(divided, &u);
-        let Areas { plug, dead, unyielded, stress } = areas(solution, &w, REST * u_max.1);
+        let Areas { plug, dead, unyielded, stress } = areas(solution, &w, REST * u_max.value);
         let level = divided.duct.bed().unwrap_or(0.0);
-        let moves = divided.integral(&w, 0..mesh.bed_rows) > REST * u_max.1;
+        let moves = divided.integral(&w, 0..mesh.bed_rows) > REST * u_max.value;
         let mobile = match &solution.line {
             Some(line) => level - line[0],
             None if moves => level,
@@ -74,7 +75,7 @@ impl Numbers {
 }
 
 /// The largest velocity on the symmetry plane: top of the parabola through the largest node and its neighbours.
-fn largest(divided: &Divided, u: &[f64]) -> (f64, f64) {
+fn largest(divided: &Divided, u: &[f64]) -> Maximum {
     let mesh = &divided.mesh;
     let (_, up) = mesh.lines();
     let at = |j: usize| (mesh.position(mesh.node(0, j)).1, u[mesh.node(0, j)]);
@@ -83,10 +84,10 @@ fn largest(divided: &Divided, u: &[f64]) -> (f64, f64) {
     let (left, right) = ((b - a) / (zb - za), (c - b) / (zc - zb));
     let curvature = (right - left) / (zc - za);
     if curvature >= 0.0 {
-        return (zb, b);
+        return Maximum { level: zb, value: b };
     }
     let z = (0.5 * (za + zb) - 0.5 * left / curvature).clamp(za, zc);
-    (z, a + (z - za) * (left + curvature * (z - zb)))
+    Maximum { level: z, value: a + (z - za) * (left + curvature * (z - zb)) }
 }
 
 /// Derivative of the velocity along z on the symmetry plane, in row `row`, at `t` in -1..1 of its height.

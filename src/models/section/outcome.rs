@@ -141,9 +141,9 @@ fn results(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Results {
     let mut results = Results::default();
     results.set(&q::FLOW_RATE, rate);
     results.set(&q::FLOW_RATE_DIMENSIONLESS, numbers.flow_rate);
-    results.set(&q::U_MAX, numbers.u_max.1 * shear * h);
-    results.set(&q::U_MAX_DIMENSIONLESS, numbers.u_max.1);
-    results.set(&q::U_MAX_LEVEL, numbers.u_max.0 * h);
+    results.set(&q::U_MAX, numbers.u_max.value * shear * h);
+    results.set(&q::U_MAX_DIMENSIONLESS, numbers.u_max.value);
+    results.set(&q::U_MAX_LEVEL, numbers.u_max.level * h);
     results.set(&q::MEAN_VELOCITY, rate / area);
     results.set(&q::DEAD_SHARE, numbers.dead / flow.outline.area());
     results.set(&q::FLOW_HEIGHT, h);

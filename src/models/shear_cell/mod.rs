@@ -1,4 +1,4 @@
-//! Grains that collide between two walls, without fluid or gravity: what is said of the flow that `flow` solves.
+//! Grains that collide between two walls, without fluid or gravity: what is reported of the flow that `flow` solves.
 
 pub mod case;
 mod flow;

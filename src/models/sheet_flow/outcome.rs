@@ -224,8 +224,8 @@ fn sheet_results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layer
         None => results.undefined(&q::STRESS_CROSSOVER, "grains and fluid carry equal stresses nowhere"),
     }
     results.set(&q::VISCOUS_SHARE, moving.viscous_share);
-    results.set(&q::FREE_FALL_SHARE, moving.falls.0);
-    results.set(&q::TURBULENT_SHARE, moving.falls.1);
+    results.set(&q::FREE_FALL_SHARE, moving.free_fall);
+    results.set(&q::TURBULENT_SHARE, moving.turbulent_fall);
 }
 
 fn balances<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Balance> {

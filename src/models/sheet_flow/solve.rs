@@ -11,19 +11,39 @@ use super::start::{Guess, TOP, mobile_volume};
 use crate::closures::friction::{FrictionLaw, MuI};
 use crate::models::sheet_flow::BedReading;
 
-/// Cells of the coarse mesh, and share of the range of the friction at which the first guess lets the grains shear; tried in
-/// turn: on meshes of the moving grains, then on those of the whole bed, where the yield level finds itself.
-const GUESSES: [(Floor, usize, f64); 10] = [
-    (Floor::Yield, 60, 0.8),
-    (Floor::Yield, 60, 0.9),
-    (Floor::Bottom, 80, 0.8),
-    (Floor::Bottom, 80, 0.9),
-    (Floor::Bottom, 80, 0.6),
-    (Floor::Bottom, 50, 0.8),
-    (Floor::Bottom, 120, 0.8),
-    (Floor::Bottom, 120, 0.5),
-    (Floor::Bottom, 200, 0.7),
-    (Floor::Bottom, 160, 0.9),
+/// A coarse mesh and the first guess on it.
+#[derive(Clone, Copy)]
+struct CoarseGuess {
+    floor: Floor,
+    cells: usize,
+    /// share of the range of the friction at which the grains shear
+    friction: f64,
+}
+
+impl CoarseGuess {
+    const fn new(floor: Floor, cells: usize, friction: f64) -> Self {
+        Self { floor, cells, friction }
+    }
+
+    /// The column on this mesh, of `cells` cells at most, with its state.
+    fn start<F: FrictionLaw>(self, flow: Flow<F>, setting: Setting, cells: usize) -> (Column<F>, State) {
+        let Self { floor, cells: own, friction } = self;
+        Column::start(flow, setting, own.min(cells), Guess { floor, friction, mobile: None })
+    }
+}
+
+/// Tried in turn: on meshes of the moving grains, then on those of the whole bed, where the yield level finds itself.
+const GUESSES: [CoarseGuess; 10] = [
+    CoarseGuess::new(Floor::Yield, 60, 0.8),
+    CoarseGuess::new(Floor::Yield, 60, 0.9),
+    CoarseGuess::new(Floor::Bottom, 80, 0.8),
+    CoarseGuess::new(Floor::Bottom, 80, 0.9),
+    CoarseGuess::new(Floor::Bottom, 80, 0.6),
+    CoarseGuess::new(Floor::Bottom, 50, 0.8),
+    CoarseGuess::new(Floor::Bottom, 120, 0.8),
+    CoarseGuess::new(Floor::Bottom, 120, 0.5),
+    CoarseGuess::new(Floor::Bottom, 200, 0.7),
+    CoarseGuess::new(Floor::Bottom, 160, 0.9),
 ];
 /// The first guess of the iteration.
 pub const REST: Guess = Guess { floor: Floor::Bottom, friction: 0.8, mobile: None };
@@ -122,21 +142,19 @@ pub fn solve<F: FrictionLaw>(flow: Flow<F>, setting: Setting, cells: usize) -> R
 fn coarse<F: FrictionLaw>(
     flow: Flow<F>,
     setting: Setting,
-    guess: Option<(Floor, usize, f64)>,
+    guess: Option<CoarseGuess>,
     cells: usize,
     history: &mut Vec<f64>,
 ) -> Result<(Column<F>, State), NotConverged> {
     let open = Flow { cut: f64::INFINITY, lambda: 0.0, ..flow };
-    // The amount of grains is settled last.
+    // The amount of grains is found last.
     let setting = Setting { reading: BedReading::Final, ..setting };
-    let (floor, size, friction) = guess.unwrap_or((Floor::Bottom, 80, 0.8));
     if guess.is_none()
         && let Ok(eased) = ease(open, setting, cells, history)
     {
         return Ok(eased);
     }
-    let (mut column, mut state) =
-        Column::start(open, setting, size.min(cells), Guess { floor, friction, mobile: None });
+    let (mut column, mut state) = guess.unwrap_or(CoarseGuess::new(Floor::Bottom, 80, 0.8)).start(open, setting, cells);
     if guess.is_none() {
         column.flow.lambda = DETOUR.0;
         state = column.iterate(state, &DETOUR.1, history, |_, _| false)?;
@@ -155,7 +173,6 @@ fn ease<F: FrictionLaw>(
     cells: usize,
     history: &mut Vec<f64>,
 ) -> Result<(Column<F>, State), NotConverged> {
-    let (floor, size, friction) = GUESSES[0];
     let (i_0, b) = (flow.friction.half_way(), flow.dilatancy.b);
     let eased = |share: f64| {
         let mut eased = flow;
@@ -163,8 +180,7 @@ fn ease<F: FrictionLaw>(
         eased.dilatancy.b = b * (EASY.1 / b).max(1.0).powf(share);
         eased
     };
-    let (mut column, mut state) =
-        Column::start(eased(1.0), setting, size.min(cells), Guess { floor, friction, mobile: None });
+    let (mut column, mut state) = GUESSES[0].start(eased(1.0), setting, cells);
     for k in (0..=EASING).rev() {
         column.flow = eased(f64::from(k) / f64::from(EASING));
         state = column.newton_to(state, ROUGH, history)?;

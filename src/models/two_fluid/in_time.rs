@@ -33,7 +33,7 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
     let still = column.at_rest(flow.phi);
     let steady = column.laws.drive;
     // -dp/dx over (rho_p - rho_f) g, on the volume of fluid and, over the ratio of densities, on that of the grains.
-    let waves = flow.oscillation.map(|(amplitude, period)| (amplitude * flow.d / flow.stress_scale(), period / unit));
+    let waves = flow.oscillation.map(|waves| (waves.amplitude * flow.d / flow.stress_scale(), waves.period / unit));
     let ratio = column.laws.ratio;
     let drive = |time: f64| match waves {
         None => steady,

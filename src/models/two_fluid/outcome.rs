@@ -77,7 +77,7 @@ pub(super) fn column(flow: &TwoFluid, cells: usize) -> Result<Column, NumericalE
     Ok(Column { laws, widths: spacing.widths(cells), spacing, solids })
 }
 
-/// Everything that is said of a state.
+/// Everything that is reported of a state.
 pub(super) fn report(
     flow: &TwoFluid,
     column: &Column,

@@ -1,6 +1,6 @@
 //! Problems of grains and fluid as two fluids.
 
-use super::case::{FluidStress, State, TwoFluidTables};
+use super::case::{FluidStress, Oscillation, State, TwoFluidTables};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::dispersion::Dispersion;
@@ -80,8 +80,8 @@ pub struct TwoFluid {
     pub phi_floor: f64,
     /// distance from the level of the grains at rest within which cells stay fine \[m]; all of the same height without
     pub fine: Option<f64>,
-    /// amplitude [Pa/m] and period \[s] of a pressure gradient that goes to and fro
-    pub oscillation: Option<(f64, f64)>,
+    /// a pressure gradient that oscillates: amplitude [Pa/m], period \[s]
+    pub oscillation: Option<Oscillation>,
     /// how the flow is followed in time
     pub time: TimeControl,
 }
@@ -191,7 +191,7 @@ impl Model for OnMesh<TwoFluid> {
             rate_floor: regularisation.shear_rate,
             phi_floor: regularisation.phi,
             fine: tables.grid.fine,
-            oscillation: flow.oscillation.map(|waves| (waves.amplitude, waves.period)),
+            oscillation: flow.oscillation,
             time: TimeControl { duration: solver.duration, tolerance: solver.tolerance, samples: solver.samples },
         };
         Some(Self { problem, cells: tables.grid.cells })

@@ -53,7 +53,7 @@ pub struct Fit<E> {
     pub evaluations: usize,
     /// how often the model had no answer
     pub refusals: usize,
-    /// whether a parameter is held by its bound
+    /// whether a parameter is at its bound
     pub at_bound: Vec<bool>,
     /// the remaining step in standard errors
     pub offset: f64,
@@ -102,7 +102,7 @@ pub fn minimise<E: Clone + Send>(
     let (halted, jacobian, at_bound) = loop {
         let (ended, report) = method.minimize(search);
         search = ended;
-        // What no machine can improve on is as good as converged, if the offset says so.
+        // What no machine can improve on is as good as converged, if the offset confirms it.
         let halted = report.termination.was_successful()
             || matches!(report.termination, TerminationReason::NoImprovementPossible(_));
         let (x, r) = search.best.clone();
@@ -144,7 +144,7 @@ pub fn minimise<E: Clone + Send>(
     })
 }
 
-/// The columns of the parameters that are not held.
+/// The columns of the parameters that are not at their bound.
 fn free(jacobian: &DMatrix<f64>, at_bound: &[bool]) -> DMatrix<f64> {
     let columns: Vec<usize> = (0..at_bound.len()).filter(|&i| !at_bound[i]).collect();
     jacobian.select_columns(&columns)
@@ -221,7 +221,7 @@ impl<F: Fn(&[f64]) -> Result<Vec<f64>, E> + Sync, E: Clone + Send> Search<'_, F,
         DVector::from_iterator(x.len(), x.iter().zip(self.bounds).map(|(x, (low, high))| x.max(*low).min(*high)))
     }
 
-    /// Which parameters of the best point are held by their bound, and whether any stands at its bound that should leave it.
+    /// Which parameters of the best point stay at their bound, and whether any stands at its bound that should leave it.
     fn at_bounds(&self, jacobian: &DMatrix<f64>) -> (Vec<bool>, bool) {
         let (x, r) = &self.best;
         let ascent = jacobian.transpose() * r;

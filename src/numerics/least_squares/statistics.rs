@@ -11,9 +11,9 @@ pub struct Statistics {
     pub chi2: f64,
     /// residuals less free parameters
     pub freedom: usize,
-    /// standard error of each parameter; not a number for one that is held
+    /// standard error of each parameter; not a number for one at its bound
     pub errors: Vec<f64>,
-    /// correlation of each pair; not a number with one that is held
+    /// correlation of each pair; not a number with one at its bound
     pub correlations: Vec<Vec<f64>>,
     /// singular values of the derivative, descending
     pub singular: Vec<f64>,
@@ -28,7 +28,7 @@ impl Statistics {
         (0..n).flat_map(move |i| (i + 1..n).map(move |j| (i, j, self.correlations[i][j])))
     }
 
-    /// Standard errors and correlations from `residuals` with their derivative, of the parameters that are not `held`.
+    /// Standard errors and correlations from `residuals` with their derivative, of the parameters that are not `at_bound`.
     /// Residuals are in units of their standard error if that is `known`; else it is taken from them. `None` without a
     /// degree of freedom to take it from, without a free parameter, and where a number is not finite.
     #[must_use]

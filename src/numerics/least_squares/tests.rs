@@ -96,7 +96,7 @@ fn a_bound_holds_a_parameter_and_the_others_are_fitted_beside_it() {
 #[test]
 fn errors_are_those_of_many_noisy_repeats() {
     // y = a exp(-b t) with noise of one size: the spread of the fits is the error that each of them states.
-    let (truth, sigma, repeats) = ([2.0, 0.7], 0.05, 400_u64);
+    let (exact, sigma, repeats) = ([2.0, 0.7], 0.05, 400_u64);
     let model = |p: &[f64], t: f64| p[0] * (-p[1] * t).exp();
     let (mut spread, mut stated, mut product, mut correlation) = ([0.0; 2], [0.0; 2], 0.0, 0.0);
     let mut state = 1;
@@ -104,14 +104,14 @@ fn errors_are_those_of_many_noisy_repeats() {
         let data: Vec<(f64, f64)> = (0..20_u32)
             .map(|i| {
                 let t = 0.2 * f64::from(i);
-                (t, model(&truth, t) + sigma * normal(&mut state))
+                (t, model(&exact, t) + sigma * normal(&mut state))
             })
             .collect();
         let found = fit(&[1.0, 1.0], |p| Ok(data.iter().map(|(t, y)| (model(p, *t) - y) / sigma).collect()));
         assert_eq!(found.ended, Ok(()));
         let statistics =
             Statistics::of(&found.residuals, found.jacobian.as_ref().unwrap(), &found.at_bound, true).unwrap();
-        let off = [0, 1].map(|i| found.x[i] - truth[i]);
+        let off = [0, 1].map(|i| found.x[i] - exact[i]);
         for i in 0..2 {
             spread[i] += off[i] * off[i] / repeats as f64;
             stated[i] += statistics.errors[i].powi(2) / repeats as f64;

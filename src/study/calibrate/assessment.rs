@@ -1,4 +1,4 @@
-//! What a fit says: each parameter with its error, the pairs that cannot be told apart, table and figures.
+//! What a fit reports: each parameter with its error, the pairs that cannot be told apart, table and figures.
 
 use serde_json::{Value, json};
 
@@ -23,7 +23,7 @@ pub(super) struct Found {
     pub data: Subject,
     pub target: Target,
     pub fit: Fit<ErrorReport>,
-    /// `None` where nothing can be said of the errors
+    /// `None` where the errors are not known
     pub statistics: Option<Statistics>,
 }
 

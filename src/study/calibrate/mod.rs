@@ -152,7 +152,7 @@ fn failed(error: ErrorReport) -> (Vec<Point>, Assess) {
     (Vec::new(), Box::new(move |_| Assessment { failure: Some(error), ..Assessment::default() }))
 }
 
-/// The fit: the point where it ended, and what is to be said of it.
+/// The fit: the point where it ended, and what is reported of it.
 fn follow(parameters: Parameters, data: Subject, target: Target, observer: &dyn Observer) -> (Vec<Point>, Assess) {
     match parameters.fit(&target, observer) {
         Err(error) => failed(error),

@@ -37,6 +37,7 @@ use super::no_root;
 use crate::models::BedError;
 use crate::models::bed_error::in_si;
 use crate::models::exact::bed::{Drive, LaminarBed};
+use crate::models::exact::bed_results::Maximum;
 use crate::numerics::root::brent;
 use crate::result::SolveError;
 
@@ -263,12 +264,12 @@ impl Solution {
         self.static_layer.map_or(0.0, |layer| layer.integral_above(0.0)) + self.slip() * y + self.flux() + clear
     }
 
-    /// Elevation and value of the largest velocity.
+    /// The largest velocity.
     #[must_use]
-    pub fn largest_velocity(&self) -> (f64, f64) {
+    pub fn largest_velocity(&self) -> Maximum {
         let x = (self.tau_interface / self.scaled.f).min(1.0 - self.scaled.h_p);
-        let z = self.scaled.h_p + x;
-        (z, self.u_interface + self.tau_interface * x - 0.5 * self.scaled.f * x * x)
+        let value = self.u_interface + self.tau_interface * x - 0.5 * self.scaled.f * x * x;
+        Maximum { level: self.scaled.h_p + x, value }
     }
 }
 

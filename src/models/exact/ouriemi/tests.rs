@@ -110,7 +110,7 @@ fn discharge_and_largest_velocity_by_quadrature() {
         let faces = [0.0, solution.h_c - 0.05, solution.h_c, scaled.h_p, 1.0];
         let integral: f64 = faces.windows(2).map(|p| simpson(|z| solution.mixture(z), p[0], p[1], 4000)).sum();
         assert_relative_eq!(integral, solution.discharge(), max_relative = 1e-9);
-        let (z, u) = solution.largest_velocity();
+        let super::Maximum { level: z, value: u } = solution.largest_velocity();
         assert_relative_eq!(u, solution.mixture(z), max_relative = 1e-13);
         assert!(u > solution.mixture(z - 1e-3) && u > solution.mixture(z + 1e-3));
     }

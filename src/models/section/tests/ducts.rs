@@ -184,12 +184,13 @@ fn exact_graded(duct: &Duct, rows: usize) -> Solution {
 #[test]
 fn every_regularisation_tends_to_the_exact_yield_and_creeps_before() {
     let duct = bingham(SQUARE, 0.1);
-    let truth = exact(&duct, 16);
+    let unsmoothed = exact(&duct, 16);
     for law in [Smoothing::Simple, Smoothing::BercovierEngelman, Smoothing::Papanastasiou] {
         let error = |lambda: f64| {
             let solution = solve(&duct, 16, &Regularisation { law, lambda }, &HOW);
-            let worst = solution.solved.x.iter().zip(&truth.solved.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-            (worst / u_max(&truth), flow_rate(&solution) - flow_rate(&truth))
+            let worst =
+                solution.solved.x.iter().zip(&unsmoothed.solved.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+            (worst / u_max(&unsmoothed), flow_rate(&solution) - flow_rate(&unsmoothed))
         };
         let (coarse, fine) = (error(1e-4), error(1e-6));
         println!("{law:?}: {coarse:?} {fine:?}");
@@ -200,7 +201,7 @@ fn every_regularisation_tends_to_the_exact_yield_and_creeps_before() {
     // Bercovier and Engelman's law is several times closer than the paper's.
     let at = |law| {
         let solution = solve(&duct, 16, &Regularisation { law, lambda: 1e-6 }, &HOW);
-        flow_rate(&solution) - flow_rate(&truth)
+        flow_rate(&solution) - flow_rate(&unsmoothed)
     };
     assert!(at(Smoothing::Simple) > 3.0 * at(Smoothing::BercovierEngelman));
 }
@@ -258,7 +259,7 @@ fn the_depth_of_grains_that_slip_converges_where_the_mesh_resolves_both_sides_of
     for shape in [SQUARE, Outline::Circle] {
         let on = |rows: usize| {
             let numbers = Numbers::of(&exact(&bed(shape, true), rows));
-            [numbers.flow_rate, numbers.grains, numbers.u_max.1, numbers.mobile]
+            [numbers.flow_rate, numbers.grains, numbers.u_max.value, numbers.mobile]
         };
         let (coarse, fine) = (on(24), on(48));
         let changes: Vec<f64> = coarse.iter().zip(fine).map(|(a, b)| (a / b - 1.0).abs()).collect();
