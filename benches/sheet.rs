@@ -10,7 +10,7 @@ use std::time::Instant;
 
 use bedload::model::{OnMesh, read};
 use bedload::models::sheet_flow::SheetFlow;
-use bedload::models::sheet_flow::bench::{Column, Flow, Layers, Pace, REST, Setting, solve};
+use bedload::models::sheet_flow::bench::{Column, Flow, Layers, REST, Setting, StepControl, solve};
 
 const CASES: [&str; 6] = [
     "sheet_1d_sumer82",
@@ -24,10 +24,10 @@ const REPEATS: usize = 51;
 const CELLS: usize = 300;
 /// Relative error of the transport rate at which both stop.
 const ERROR: f64 = 1e-4;
-/// Steps of pseudo-time, scaled; turns at most.
+/// Steps of pseudo-time, scaled; iterations at most.
 const STEPS: [f64; 8] = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 1000.0];
-const TURNS: usize = 40_000;
-/// Turns between two looks at the transport rate.
+const MAX_ITERATIONS: usize = 40_000;
+/// Iterations between two looks at the transport rate.
 const LOOK: usize = 20;
 /// Looks in a row at which the error must be small.
 const STAYS: usize = 20;
@@ -57,53 +57,53 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("Newton from cold, {CELLS} cells, median of {REPEATS}");
     for case in CASES {
         let (flow, setting) = scaled(case, &[])?;
-        let solved = solve(flow, setting, CELLS).map_err(|stalled| format!("{case}: {stalled:?}"))?;
+        let solved = solve(flow, setting, CELLS).map_err(|failed| format!("{case}: {failed:?}"))?;
         println!("{case:>18} {:>8.2} ms {:>4} iterations", cold(flow, setting), solved.history.len());
     }
     println!("\nboth to {ERROR:e} of the transport rate, regularisation 1e-6 1/s, {CELLS} cells");
     for case in &CASES[..4] {
         let (flow, setting) = scaled(case, &["regularisation.law=simple", "regularisation.lambda=1e-6"])?;
-        let solved = solve(flow, setting, CELLS).map_err(|stalled| format!("{case}: {stalled:?}"))?;
+        let solved = solve(flow, setting, CELLS).map_err(|failed| format!("{case}: {failed:?}"))?;
         let psi = Layers::new(&solved.column, &solved.state).psi();
         let newton = cold(flow, setting);
         let mut best: Option<(f64, f64, usize)> = None;
         for dt in STEPS {
             let (_, guess) = Column::start(flow, setting, CELLS, REST);
-            // Turn by turn in blocks, so that only the iteration is timed.
-            let (mut state, mut turns, mut spent) = (guess, 0, 0.0);
-            let pace = Pace { dt, tolerance: 0.0, most: LOOK };
+            // Iterated in blocks, so that only the iteration is timed.
+            let (mut state, mut iterations, mut spent) = (guess, 0, 0.0);
+            let control = StepControl { dt, tolerance: 0.0, max_iterations: LOOK };
             let column = &solved.column;
             // Within the error for good: at several looks in a row, of which the first counts.
             let (mut within, mut first) = (0, (0.0, 0));
             let found = loop {
                 let start = Instant::now();
-                let Some(next) = column.turns(state, &pace) else { break false };
+                let Some(next) = column.iterate_for(state, &control) else { break false };
                 spent += start.elapsed().as_secs_f64();
-                (state, turns) = (next, turns + LOOK);
+                (state, iterations) = (next, iterations + LOOK);
                 let error = (Layers::new(column, &state).psi() / psi - 1.0).abs();
                 if error > ERROR {
                     within = 0;
                 } else {
                     within += 1;
                     if within == 1 {
-                        first = (spent, turns);
+                        first = (spent, iterations);
                     }
                 }
                 if within == STAYS {
                     break true;
                 }
-                if turns >= TURNS || !error.is_finite() {
+                if iterations >= MAX_ITERATIONS || !error.is_finite() {
                     break false;
                 }
             };
-            (spent, turns) = first;
+            (spent, iterations) = first;
             if found && best.is_none_or(|(least, ..)| spent < least) {
-                best = Some((spent, dt, turns));
+                best = Some((spent, dt, iterations));
             }
         }
         match best {
-            Some((spent, dt, turns)) => println!(
-                "{case:>18} Newton {newton:>7.2} ms, iteration {:>9.2} ms at its best step {dt} ({turns} turns): ratio {:.0}",
+            Some((spent, dt, iterations)) => println!(
+                "{case:>18} Newton {newton:>7.2} ms, iteration {:>9.2} ms at its best step {dt} ({iterations} iterations): ratio {:.0}",
                 1e3 * spent,
                 1e3 * spent / newton
             ),

@@ -255,10 +255,10 @@ pub fn studies(folder: &Path) -> Result<[Conducted; 2], Box<dyn Error>> {
         (settings.out, settings.threads) = (Some(folder.join(name)), 1);
         settings
     };
-    let (plan, judge) = sweep::plan(&case, &[], &["flow.sine=0.02,0.04,0.08".into()])?;
-    let swept = conduct(&plan, &settings("sweep"), Box::new(|_, _| (Vec::new(), judge)))?;
-    let (plan, judge) = converge::plan(&registry, &converge::Request::new(&case, converge::Over::Mesh))?;
-    let converged = conduct(&plan, &settings("converge"), Box::new(|_, _| (Vec::new(), judge)))?;
+    let (plan, assess) = sweep::plan(&case, &[], &["flow.sine=0.02,0.04,0.08".into()])?;
+    let swept = conduct(&plan, &settings("sweep"), Box::new(|_, _| (Vec::new(), assess)))?;
+    let (plan, assess) = converge::plan(&registry, &converge::Request::new(&case, converge::Over::Mesh))?;
+    let converged = conduct(&plan, &settings("converge"), Box::new(|_, _| (Vec::new(), assess)))?;
     Ok([swept, converged])
 }
 
@@ -269,7 +269,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         std::process::exit(i32::from(cli::execute(&registry()) != std::process::ExitCode::SUCCESS));
     }
     for study in studies(&std::env::temp_dir())? {
-        for (label, text) in study.judgement.findings {
+        for (label, text) in study.assessment.findings {
             println!("{label}: {text}");
         }
     }

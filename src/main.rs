@@ -10,7 +10,7 @@ fn main() -> ExitCode {
     panic::catch_unwind(|| bedload::cli::execute(&bedload::models::builtin())).unwrap_or(ExitCode::FAILURE)
 }
 
-/// A panic is a bug, and says so.
+/// A panic is a bug, and is reported as one.
 fn explain_bug(info: &PanicHookInfo<'_>) {
     let at = info.location().map(|l| format!(" at {}:{}", l.file(), l.line())).unwrap_or_default();
     let payload = info.payload();

@@ -362,7 +362,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said() {
+    fn what_is_wrong_is_reported() {
         assert!(matches!(parse_quantity("6,5 mm", "m"), Err(UnitError::DecimalComma { .. })));
         assert!(matches!(parse_quantity("mm", "m"), Err(UnitError::NoNumber { .. })));
         assert!(matches!(parse_quantity("6", "m"), Err(UnitError::NoUnit { .. })));

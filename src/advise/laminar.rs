@@ -11,7 +11,7 @@ const K_CK: f64 = 180.0;
 pub(super) fn numbers(scene: &LaminarScene, solved: Option<&Results>) -> Vec<Number> {
     let result = |name: &str| solved.and_then(|results| results.get(name));
     let stress = (scene.rho_p - scene.rho_f) * scene.g * scene.h;
-    let (mu_s, e) = (scene.friction.0, scene.viscosity);
+    let (mu_s, e) = (scene.mu_s, scene.viscosity);
     let mut numbers = Vec::new();
     if let Some(theta) = result(q::SHIELDS.name) {
         let says = if theta < 0.09 {
@@ -42,7 +42,7 @@ pub(super) fn numbers(scene: &LaminarScene, solved: Option<&Results>) -> Vec<Num
             numbers.push(Number { name: "mobile layers Y H/d", value: layers, says: says.into() });
         }
     }
-    if let Some(mu_2) = scene.friction.1 {
+    if let Some(mu_2) = scene.mu_2 {
         let value = (mu_2 - mu_s) / mu_s;
         numbers.push(Number { name: "friction rises by (μ_2 - μ_s)/μ_s", value, says: "at most".into() });
     }

@@ -57,7 +57,7 @@ pub struct Least {
     pub overrides: Option<Vec<String>>,
 }
 
-/// What is said of a scene.
+/// What is reported of a scene.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Advice {
@@ -148,9 +148,9 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
     let Some(mut flow) = problem.solver().flow().map_err(no_flow)? else {
         return Err(AdviseError::OneModel { model: problem.kind.into() });
     };
-    let scene = Scene { registry, case, overrides, tolerance };
+    let subject = Subject { registry, case, overrides, tolerance };
     let numbers = match &flow {
-        Flow::Laminar(bed) => laminar::numbers(bed, scene.solve(&[]).as_ref()),
+        Flow::Laminar(bed) => laminar::numbers(bed, subject.solve(&[]).as_ref()),
         Flow::Turbulent(bed) if bed.theta.is_finite() && bed.weight() < 1.0 => turbulent::numbers(bed),
         Flow::Turbulent(bed) => {
             return Err(AdviseError::NoBed { share: bed.weight() });
@@ -158,11 +158,11 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
     };
     let mut terms = Vec::new();
     for term in problem.solver().terms() {
-        let Some(judged) = scene.judge(&term) else { continue };
-        if let Some(drop) = term.dropped.filter(|_| !judged.keep) {
+        let Some(assessed) = subject.assess(&term) else { continue };
+        if let Some(drop) = term.dropped.filter(|_| !assessed.keep) {
             drop(&mut flow);
         }
-        terms.push(judged);
+        terms.push(assessed);
     }
     let offers = registry.entries().filter_map(|entry| Some((entry.info, entry.offer(&flow, tolerance)?)));
     let Some((info, offer)) = offers.min_by_key(|(_, offer)| offer.effort) else {
@@ -202,21 +202,21 @@ impl Advice {
 }
 
 /// The case that is advised on.
-struct Scene<'a> {
+struct Subject<'a> {
     registry: &'a Registry,
     case: &'a str,
     overrides: &'a [String],
     tolerance: f64,
 }
 
-impl Scene<'_> {
+impl Subject<'_> {
     fn solve(&self, change: &[String]) -> Option<Results> {
         let (_, problem) = self.registry.load(self.case, &[self.overrides, change].concat()).ok()?;
         Context::quiet(|context| problem.run(context)).ok().map(|outcome| outcome.results)
     }
 
     /// Whether the scene needs a term: by a threshold, or by solving the case as it stands and without the term.
-    fn judge(&self, term: &model::Term) -> Option<Term> {
+    fn assess(&self, term: &model::Term) -> Option<Term> {
         let model::Term { what, source, .. } = *term;
         let (change, left, free) = match &term.test {
             TermTest::Known { keep, because } => {

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
 
-use super::render::{SHOWN, brief};
+use super::render::{MAX_REPORTED, brief};
 use super::{CaseError, Document, Violation, printable};
 
 /// Lines longer than this are cut around the place.
@@ -18,14 +18,14 @@ impl CaseError {
         let theme = if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
         let handler = GraphicalReportHandler::new_themed(theme).with_width(110).with_links(false);
         let mut text = String::new();
-        for violation in self.violations.iter().take(SHOWN) {
-            let shown = Shown::new(&self.document, violation);
-            if handler.render_report(&mut text, &shown).is_err() {
+        for violation in self.violations.iter().take(MAX_REPORTED) {
+            let report = Report::new(&self.document, violation);
+            if handler.render_report(&mut text, &report).is_err() {
                 text += &format!("{}\n", violation.fault);
             }
         }
-        if self.violations.len() > SHOWN {
-            text += &format!("  ... and {} more\n", self.violations.len() - SHOWN);
+        if self.violations.len() > MAX_REPORTED {
+            text += &format!("  ... and {} more\n", self.violations.len() - MAX_REPORTED);
         }
         text
     }
@@ -33,7 +33,7 @@ impl CaseError {
 
 /// One violation with the piece of text that it points into.
 #[derive(Debug)]
-struct Shown {
+struct Report {
     message: String,
     code: &'static str,
     help: Option<String>,
@@ -41,29 +41,29 @@ struct Shown {
     labels: Vec<LabeledSpan>,
 }
 
-impl Shown {
+impl Report {
     fn new(document: &Document, violation: &Violation) -> Self {
         let fault = &violation.fault;
         let mut help = Vec::new();
         help.extend(fault.allowed().filter(|a| !a.is_empty()).map(|a| format!("allowed: {a}")));
         help.extend(fault.hint());
-        let mut shown = Self {
+        let mut report = Self {
             message: brief(&fault.to_string()),
             code: fault.code(),
             help: (!help.is_empty()).then(|| brief(&help.join("\n"))),
             source: None,
             labels: Vec::new(),
         };
-        let Some(main) = violation.spans.first() else { return shown };
+        let Some(main) = violation.spans.first() else { return report };
         let text = document.text(main);
         if text.content.is_empty() {
-            return shown;
+            return report;
         }
         let content = printable(&text.content);
         let same_text = violation.spans.iter().filter(|s| s.text == main.text).map(|s| within(&content, &s.bytes));
         let spans: Vec<Range<usize>> = same_text.collect();
         let (name, content, shift) = excerpt(&printable(&text.name), content, &spans[0]);
-        shown.labels = spans
+        report.labels = spans
             .into_iter()
             .filter(|s| s.start >= shift && s.start - shift <= content.len())
             .map(|s| {
@@ -71,8 +71,8 @@ impl Shown {
                 LabeledSpan::new_with_span(Some("here".into()), s.start - shift..end)
             })
             .collect();
-        shown.source = Some(NamedSource::new(name, content));
-        shown
+        report.source = Some(NamedSource::new(name, content));
+        report
     }
 }
 
@@ -114,15 +114,15 @@ fn excerpt(name: &str, content: String, span: &Range<usize>) -> (String, String,
     (format!("{name}, line {line}"), content[from..to].to_owned(), from)
 }
 
-impl fmt::Display for Shown {
+impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.message)
     }
 }
 
-impl std::error::Error for Shown {}
+impl std::error::Error for Report {}
 
-impl Diagnostic for Shown {
+impl Diagnostic for Report {
     fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
         Some(Box::new(self.code))
     }

@@ -40,7 +40,7 @@ pub struct Limit {
     pub tolerance: f64,
     /// What becomes of the method beyond it.
     pub beyond: Class,
-    /// Largest error of an answer that holds, where a closed form judges it.
+    /// Largest error of an answer that is accepted, where there is a closed form.
     #[serde(default = "one_per_cent")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
     pub within: f64,

@@ -122,7 +122,7 @@ pub enum Fault {
         error: UnitError,
         /// SI unit of the quantity
         unit: String,
-        /// what to write instead, where that can be said
+        /// what to write instead, where that is known
         meant: Option<String>,
     },
     /// NaN or infinite.

@@ -1,4 +1,4 @@
-//! Case files: from text to typed tables in SI, with every violation at once. The only room that knows TOML.
+//! Case files: from text to typed tables in SI, with every violation at once. The only module that knows TOML.
 //!
 //! ```text
 //! text ─► document (tree with spans, --set applied) ─► diagnose (against the schema) ─► tables (typed, SI)
@@ -73,8 +73,8 @@ fn count(n: usize) -> String {
 /// What is wrong, a line each, for those who print the error without its text.
 fn listed(violations: &[Violation]) -> String {
     let line = |v: &Violation| format!("\n  {}: {}", if v.path.is_empty() { "case" } else { &v.path }, v.fault);
-    let shown: String = violations.iter().take(render::SHOWN).map(line).collect();
-    printable(&shown)
+    let reported: String = violations.iter().take(render::MAX_REPORTED).map(line).collect();
+    printable(&reported)
 }
 
 impl Case {

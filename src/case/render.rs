@@ -3,8 +3,8 @@
 use super::{CaseError, Violation};
 use crate::result::ErrorReport;
 
-/// More violations than this are counted, not shown.
-pub(super) const SHOWN: usize = 40;
+/// More violations than this are counted, not reported.
+pub(super) const MAX_REPORTED: usize = 40;
 /// Messages longer than this \[characters] lose their middle: a word of the file may be of any length.
 const LONG_MESSAGE: usize = 400;
 

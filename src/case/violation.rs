@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::document::Span;
 
-/// What is wrong at one place of a case: its message, and what a user is told to do. [`Fault`](super::Fault) has those of reading a
+/// What is wrong at one place of a case: its message, and what to do about it. [`Fault`](super::Fault) has those of reading a
 /// case; a model has its own.
 pub trait CaseFault: Error + Send + Sync + 'static {
     /// Stable identifier, as in the answer of `--json`.

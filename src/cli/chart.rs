@@ -16,7 +16,7 @@ pub(super) struct Chart {
     /// Change a value of the first case: table.key=value; an empty value removes the key
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
-    /// The number that is judged: a name in summary.json [default: the transport rate, or what the model has instead]
+    /// The number that is assessed: a name in summary.json [default: the transport rate, or what the model has instead]
     #[arg(long, value_name = "NAME")]
     quantity: Option<String>,
     /// What errors are measured against: the folder of a finished run, exact or finest [default: the best there is]
@@ -40,12 +40,12 @@ impl Verb for Chart {
             quantity: self.quantity,
             reference: self.reference,
         };
-        let (plan, judge) = chart::plan(registry, &request)?;
+        let (plan, assess) = chart::plan(registry, &request)?;
         let mut cases = self.cases.into_iter();
         let case = CaseArgs { case: cases.next().unwrap_or_default(), overrides: self.overrides };
         let mut options: Vec<String> = cases.map(|case| word(&case)).collect();
         options.extend(request.quantity.map(|name| format!("--quantity {}", word(&name))));
         options.extend(request.reference.map(|run| format!("--reference {}", word(&run))));
-        self.study.conduct(registry, &case, &plan, judge, &options)
+        self.study.conduct(registry, &case, &plan, assess, &options)
     }
 }

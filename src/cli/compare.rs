@@ -177,14 +177,14 @@ impl Compare {
 
     /// What a reader wants to know first, in at most twelve lines.
     fn closing(&self, comparison: &Comparison, cost: &Cost, out: &Path, drawn: bool) -> String {
-        const MOST: usize = 6;
+        const MAX_SUBJECTS: usize = 6;
         let mut lines = Vec::new();
         let mut line = |label: &str, text: String| lines.push(format!("  {label:<16} {text}"));
         let others = comparison.subjects.iter().enumerate().skip(1);
-        for (i, subject) in others.clone().take(MOST) {
+        for (i, subject) in others.clone().take(MAX_SUBJECTS) {
             line("against it", format!("{}: {}", subject.name, headline(comparison, i)));
         }
-        let left = others.count().saturating_sub(MOST);
+        let left = others.count().saturating_sub(MAX_SUBJECTS);
         if left > 0 {
             line("", format!("and {left} more in norms.csv"));
         }

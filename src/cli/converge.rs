@@ -72,7 +72,7 @@ impl Verb for Converge {
             }),
             half_decades: self.half_decades,
         };
-        let (plan, judge) = converge::plan(registry, &request)?;
-        self.study.conduct(registry, &self.case, &plan, judge, &options)
+        let (plan, assess) = converge::plan(registry, &request)?;
+        self.study.conduct(registry, &self.case, &plan, assess, &options)
     }
 }

@@ -161,11 +161,11 @@ enum CliError {
     Red(usize),
     /// stopped by the user: 4. The answer for `--json`, and whether the folder keeps an earlier run
     Stopped(Value, bool),
-    /// an argument that clap cannot judge: 2
+    /// an argument that clap cannot accept: 2
     Usage { message: String, hint: String },
     /// standard output or a file: 1
     Io(io::Error),
-    /// everything has been said: only the code is left
+    /// everything has been reported: only the code is left
     Quiet(u8),
 }
 

@@ -16,7 +16,7 @@ const BETWEEN: Duration = Duration::from_millis(100);
 /// Shows progress and listens for Ctrl-C.
 #[derive(Debug)]
 pub(super) struct Progress {
-    shown: bool,
+    visible: bool,
     drawn: bool,
     next: Instant,
 }
@@ -25,7 +25,7 @@ impl Progress {
     /// Starts listening; draws only on a terminal and not if `quiet`.
     pub fn new(quiet: bool) -> Self {
         interrupt::listen();
-        Self { shown: !quiet && io::stderr().is_terminal(), drawn: false, next: Instant::now() + PATIENCE }
+        Self { visible: !quiet && io::stderr().is_terminal(), drawn: false, next: Instant::now() + PATIENCE }
     }
 }
 
@@ -34,9 +34,9 @@ impl Watch for Progress {
         if interrupt::asked() {
             return ControlFlow::Break(());
         }
-        if self.shown && Instant::now() >= self.next {
+        if self.visible && Instant::now() >= self.next {
             let quantity = snapshot.quantity.map(|(q, x)| format!("  {} {}", q.title, readable(x, q.unit)));
-            // Progress that cannot be shown is no reason to stop.
+            // Progress that cannot be drawn is no reason to stop.
             let _ = write!(
                 io::stderr(),
                 "\r\u{1b}[2K{} {:3.0} %{}",

@@ -16,7 +16,7 @@ pub(super) struct Stability {
     /// key of the table [limit] of the case]
     #[arg(long, value_name = "KEY=VALUES")]
     over: Vec<String>,
-    /// Largest relative error of an answer that holds, where a closed form judges it [default: 0.01, or that of the case]
+    /// Largest relative error of an answer that is accepted, where there is a closed form [default: 0.01, or that of the case]
     #[arg(long, value_name = "SHARE")]
     tolerance: Option<f64>,
     #[command(flatten)]
@@ -49,7 +49,7 @@ impl Verb for Stability {
             tolerance,
             predicted: own.filter(|_| self.case.overrides.is_empty()).map(|limit| limit.expect),
         };
-        let (plan, judge) = stability::plan(registry, &request)?;
-        self.study.conduct(registry, &self.case, &plan, judge, &options)
+        let (plan, assess) = stability::plan(registry, &request)?;
+        self.study.conduct(registry, &self.case, &plan, assess, &options)
     }
 }

@@ -12,7 +12,7 @@ use super::{CaseArgs, CliError, answer, say, word};
 use crate::model::Registry;
 use crate::output::Mode;
 use crate::result::{ErrorReport, Snapshot, Status, Watch};
-use crate::study::converge::Judge;
+use crate::study::converge::Assess;
 use crate::study::{Conducted, Next, Observer, Plan, Settings, conduct};
 
 /// How a study is conducted.
@@ -42,9 +42,9 @@ pub(super) struct StudyArgs {
 }
 
 /// Shows how many points are done, and listens for Ctrl-C.
-struct Shown(Mutex<Progress>);
+struct OnScreen(Mutex<Progress>);
 
-impl Observer for Shown {
+impl Observer for OnScreen {
     fn stop(&self) -> bool {
         interrupt::asked()
     }
@@ -71,10 +71,10 @@ impl StudyArgs {
         registry: &Registry,
         case: &CaseArgs,
         plan: &Plan,
-        judge: Judge,
+        assess: Assess,
         options: &[String],
     ) -> Result<(), CliError> {
-        self.conduct_on(registry, case, plan, Box::new(|_, _| (Vec::new(), judge)), options)
+        self.conduct_on(registry, case, plan, Box::new(|_, _| (Vec::new(), assess)), options)
     }
 
     /// The same, with points that follow from the first ones.
@@ -89,7 +89,7 @@ impl StudyArgs {
         let sets = case.overrides.iter().map(|set| format!("--set {}", word(set)));
         let words = ["bedload".to_owned(), plan.verb.into(), word(&case.case)].into_iter().chain(sets);
         let command = words.chain(options.iter().cloned()).collect::<Vec<_>>().join(" ");
-        let shown = Shown(Mutex::new(Progress::new(self.quiet)));
+        let on_screen = OnScreen(Mutex::new(Progress::new(self.quiet)));
         let settings = Settings {
             registry,
             out: self.out.clone(),
@@ -97,18 +97,18 @@ impl StudyArgs {
             threads: self.threads.map_or(0, usize::from),
             png: self.png,
             command,
-            observer: &shown,
+            observer: &on_screen,
         };
         let found = conduct(plan, &settings, next)?;
         let command = settings.command;
-        drop(shown);
+        drop(on_screen);
         let mut value = found.record.clone();
         if let Value::Object(object) = &mut value {
             object.insert("out".into(), found.out.display().to_string().into());
         }
         match found.status {
             Status::Failed => {
-                let error = found.judgement.failure.clone().unwrap_or_else(|| every_point(&found));
+                let error = found.assessment.failure.clone().unwrap_or_else(|| every_point(&found));
                 if let Value::Object(object) = &mut value {
                     object.insert("error".into(), json!(error));
                 }
@@ -141,7 +141,7 @@ fn every_point(found: &Conducted) -> ErrorReport {
 
 /// What a reader wants to know first, in at most twelve lines.
 fn closing(plan: &Plan, found: &Conducted, command: &str) -> String {
-    const MOST: usize = 7;
+    const MAX_FINDINGS: usize = 7;
     let failed: Vec<_> = found.rows.iter().filter(|row| row.status == Status::Failed).collect();
     let mut counts = format!("{} points, {} done", found.rows.len(), found.rows.len() - failed.len());
     if found.resumed > 0 {
@@ -149,7 +149,7 @@ fn closing(plan: &Plan, found: &Conducted, command: &str) -> String {
     }
     let mut lines = vec![format!("{} {}: {counts}", plan.verb, plan.case)];
     let mut line = |label: &str, text: String| lines.push(format!("  {label:<24} {text}"));
-    for (label, text) in found.judgement.findings.iter().take(MOST) {
+    for (label, text) in found.assessment.findings.iter().take(MAX_FINDINGS) {
         line(label, text.clone());
     }
     if let Some(first) = failed.first() {

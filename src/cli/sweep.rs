@@ -25,8 +25,8 @@ impl Verb for Sweep {
     }
 
     fn execute(self, registry: &Registry) -> Result<(), CliError> {
-        let (plan, judge) = sweep::plan(&self.case.case, &self.case.overrides, &self.over)?;
+        let (plan, assess) = sweep::plan(&self.case.case, &self.case.overrides, &self.over)?;
         let options: Vec<String> = self.over.iter().map(|over| format!("--over {}", word(over))).collect();
-        self.study.conduct(registry, &self.case, &plan, judge, &options)
+        self.study.conduct(registry, &self.case, &plan, assess, &options)
     }
 }

@@ -11,7 +11,7 @@ use crate::case::checks::Tier;
 use crate::model::Registry;
 use crate::output::TableFile;
 use crate::units::significant;
-use crate::validate::scenes::{self, Judged};
+use crate::validate::advice::{self, Assessed};
 use crate::validate::{FIGURE, HEAD, Row, Verdict, figure, markdown, validate};
 
 /// Re-run what the cases claim and write the table.
@@ -26,7 +26,7 @@ pub(super) struct Validate {
     /// Include the rows that take long
     #[arg(long)]
     full: bool,
-    /// Judge advice on scenes whose answer is known, too; so does --full without cases
+    /// Assess advice on scenes whose answer is known, too; so does --full without cases
     #[arg(long)]
     advice: bool,
     /// File for the table [default: docs/validation.md with --full, where there is a folder docs]
@@ -49,17 +49,17 @@ impl Verb for Validate {
             .filter(|_| Path::new("docs").is_dir());
         let table = self.out.or(default).map(|file| TableFile::prepare(&file, HEAD, FIGURE)).transpose()?;
         let rows = validate(registry, &self.cases, tier, &mut Progress::new(self.json))?;
-        let judged =
-            if self.advice || self.full && self.cases.is_empty() { scenes::judge(registry) } else { Vec::new() };
+        let assessed =
+            if self.advice || self.full && self.cases.is_empty() { advice::assess(registry) } else { Vec::new() };
         if let Some(table) = table {
-            let advice = if judged.is_empty() { String::new() } else { scenes::markdown(&judged) };
+            let advice = if assessed.is_empty() { String::new() } else { advice::markdown(&assessed) };
             table.write(&(markdown(&rows) + &advice), &figure(&rows))?;
         }
-        let verdicts = || rows.iter().map(|r| r.verdict).chain(judged.iter().map(|j| j.verdict));
+        let verdicts = || rows.iter().map(|r| r.verdict).chain(assessed.iter().map(|j| j.verdict));
         let red = verdicts().filter(|v| *v == Verdict::Red).count();
         if self.json {
             answer(
-                &json!({ "status": if red == 0 { "done" } else { "failed" }, "red": red, "rows": rows.iter().map(object).collect::<Vec<_>>(), "advice": judged.iter().map(advice).collect::<Vec<_>>() }),
+                &json!({ "status": if red == 0 { "done" } else { "failed" }, "red": red, "rows": rows.iter().map(object).collect::<Vec<_>>(), "advice": assessed.iter().map(advice).collect::<Vec<_>>() }),
             )?;
             return if red == 0 { Ok(()) } else { Err(CliError::Quiet(3)) };
         }
@@ -74,13 +74,13 @@ impl Verb for Validate {
                 row.check.tolerance
             );
         }
-        for row in &judged {
+        for row in &assessed {
             let found = row.advised.found.as_ref().map_or_else(Clone::clone, |(error, _)| significant(*error, 2));
-            let tolerance = row.scene.tolerance;
+            let tolerance = row.test.tolerance;
             text += &format!(
                 "{:5} advice: {:<40} {}, error {found} (± {tolerance:.0e})\n",
                 row.verdict.word(),
-                row.scene.name,
+                row.test.name,
                 row.advised.name
             );
         }
@@ -90,16 +90,16 @@ impl Verb for Validate {
     }
 }
 
-fn advice(row: &Judged) -> Value {
-    let found = |answer: &scenes::Answer| match &answer.found {
+fn advice(row: &Assessed) -> Value {
+    let found = |answer: &advice::Answer| match &answer.found {
         Ok((error, time)) => json!({ "model": answer.name, "error": error, "time_s": time }),
         Err(reason) => json!({ "model": answer.name, "reason": reason }),
     };
     json!({
-        "scene": row.scene.name,
-        "tolerance": row.scene.tolerance,
+        "scene": row.test.name,
+        "tolerance": row.test.tolerance,
         "advised": found(&row.advised),
-        "others": row.rivals.iter().map(found).collect::<Vec<_>>(),
+        "others": row.candidates.iter().map(found).collect::<Vec<_>>(),
         "without": row.without.as_ref().map(found),
         "verdict": row.verdict.word(),
     })

@@ -1,5 +1,5 @@
 //! The flow behind a problem, in the terms that several models share: what advice is made from. A model says which flow its
-//! problem is one model of, what in it may be dropped, and with which case it would answer a flow that it is shown.
+//! problem is one model of, what in it may be dropped, and with which case it would answer a given flow.
 
 /// A flow that more than one model answers.
 #[derive(Clone, Debug)]
@@ -34,8 +34,10 @@ pub struct LaminarScene {
     pub g: f64,
     /// fall of pressure along the flow [Pa/m], or the Shields number that is wanted
     pub drive: Result<f64, f64>,
-    /// friction of the grains at vanishing shear rate, and at large ones where that is more
-    pub friction: (f64, Option<f64>),
+    /// friction of the grains at vanishing shear rate
+    pub mu_s: f64,
+    /// friction of the grains at large shear rates, where that is more
+    pub mu_2: Option<f64>,
     /// whether the grains spread where they shear
     pub dilates: bool,
     /// viscosity of the bed over that of the fluid
@@ -197,13 +199,13 @@ pub struct Term {
     pub what: &'static str,
     /// where its threshold comes from
     pub source: &'static str,
-    /// how it is judged
+    /// how it is assessed
     pub test: TermTest,
     /// the flow without it, where another model may then serve
     pub dropped: Option<fn(&mut Flow)>,
 }
 
-/// How a term is judged.
+/// How a term is assessed.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub enum TermTest {

@@ -245,7 +245,7 @@ mod tests {
             assert_eq!(message.is_some(), at.is_some(), "{case}: {message:?}");
             assert!(message.unwrap_or_default().contains(at.unwrap_or_default()), "{case}");
         }
-        // A run that was stopped is judged by nobody.
+        // A run that was stopped is not assessed.
         outcome.status = Status::Stopped;
         assert_eq!(uphill(&steady, &outcome), None);
     }

@@ -1,4 +1,4 @@
-//! What a model says of its own studies: the velocity and the numbers that are judged, how its yield is smoothed, over which
+//! What a model says of its own studies: the velocity and the numbers that are assessed, how its yield is smoothed, over which
 //! meshes it converges, the settings that answer one case from cheap to dear. Plain data of one problem: whoever reads it knows no
 //! model.
 //!
@@ -120,8 +120,8 @@ pub struct Sizes {
     /// decades of the size, from and to, as powers of 1/10
     pub decades: (i32, i32),
     /// sizes at which words give the error
-    pub shown: &'static [f64],
-    /// slopes are told from this size down
+    pub reported: &'static [f64],
+    /// slopes are reported from this size down
     pub slopes_from: f64,
     /// whether the creep of what is at rest under the exact yield is one of the measures
     pub creep: bool,
@@ -210,7 +210,7 @@ impl Meshes {
 /// How the error of a regularised yield stress goes with its size lambda, s being the shear rate of the flow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law {
-    /// C (lambda/s) ln(s/lambda): the ratio R of the law falls short of 1 like lambda/gamma, which is felt at every depth
+    /// C (lambda/s) ln(s/lambda): the ratio R of the law falls short of 1 like lambda/gamma, which acts at every depth
     Logarithmic,
     /// C lambda/s: it falls short of 1 faster than that
     Linear,
@@ -266,7 +266,7 @@ mod tests {
                     load(name, sizes.set(law, &format!("1e-{decade}")));
                 }
                 load(name, sizes.exactly());
-                assert!(sizes.shown.iter().chain([&sizes.slopes_from]).all(|size| *size <= 0.1 && *size >= 1e-10));
+                assert!(sizes.reported.iter().chain([&sizes.slopes_from]).all(|size| *size <= 0.1 && *size >= 1e-10));
             }
             if let Some(meshes) = focus.meshes {
                 assert!(meshes.cells.is_sorted() && meshes.cells.last() < Some(&meshes.reference), "{name}");

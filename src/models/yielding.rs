@@ -132,7 +132,7 @@ pub(super) const SCALED: Sizes = Sizes {
         Smoothed { name: "papanastasiou", changes: &["regularisation.law=papanastasiou"], falls: Some(Law::Linear) },
     ],
     decades: (1, 12),
-    shown: &[1e-4, 1e-6, 1e-10],
+    reported: &[1e-4, 1e-6, 1e-10],
     slopes_from: 1e-4,
     creep: false,
     rule: None,

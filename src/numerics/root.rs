@@ -15,7 +15,7 @@ pub struct NoRoot {
 }
 
 /// Evaluations after which [`brent`] gives up; bisection alone would need about 110.
-const MOST: usize = 300;
+const MAX_EVALUATIONS: usize = 300;
 
 /// The root of `f` between `a` and `b`, to the resolution of `f64`, by Brent's method: bisection made faster by secant
 /// and inverse quadratic steps (Brent 1973, Algorithms for Minimization without Derivatives, chapter 4).
@@ -44,7 +44,7 @@ pub fn brent(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, mut see: impl FnMut(
     let (mut c, mut fc) = (a, fa);
     let mut step = b - a;
     let mut before = step;
-    for evaluations in 2..MOST {
+    for evaluations in 2..MAX_EVALUATIONS {
         if fa.abs() < fb.abs() {
             (a, b, c) = (b, a, b);
             (fa, fb, fc) = (fb, fa, fb);
@@ -90,7 +90,7 @@ pub fn brent(mut f: impl FnMut(f64) -> f64, a: f64, b: f64, mut see: impl FnMut(
             before = step;
         }
     }
-    Err(fail(a, b, fb, MOST))
+    Err(fail(a, b, fb, MAX_EVALUATIONS))
 }
 
 #[cfg(test)]

@@ -120,12 +120,12 @@ mod tests {
             let mut upper: Vec<f64> = rows.iter().map(|r| r.1).collect();
             let diagonal: Vec<f64> = rows.iter().map(|r| (r.0.abs() + r.1.abs() + r.2) * r.3.signum()).collect();
             let rhs: Vec<f64> = rows.iter().map(|r| r.3).collect();
-            let truth = dense(&lower, &diagonal, &upper, &rhs);
+            let exact = dense(&lower, &diagonal, &upper, &rhs);
             (lower[0], upper[n - 1]) = (f64::NAN, f64::NAN);
             let mut x = rhs;
             solve(&lower, &diagonal, &mut upper, &mut x).unwrap();
-            for (x, truth) in x.iter().zip(&truth) {
-                prop_assert!((x - truth).abs() <= 1e-11 * truth.abs().max(1.0), "{x} {truth}");
+            for (x, exact) in x.iter().zip(&exact) {
+                prop_assert!((x - exact).abs() <= 1e-11 * exact.abs().max(1.0), "{x} {exact}");
             }
         }
     }
@@ -135,8 +135,8 @@ mod tests {
         // 2x + y = 4, x + 3y + z = 10, y + 4z = 14
         let mut x = [4.0, 10.0, 14.0];
         solve(&[0.0, 1.0, 1.0], &[2.0, 3.0, 4.0], &mut [1.0, 1.0, 0.0], &mut x).unwrap();
-        for (x, truth) in x.into_iter().zip([1.0, 2.0, 3.0]) {
-            assert_relative_eq!(x, truth, max_relative = 1e-15);
+        for (x, exact) in x.into_iter().zip([1.0, 2.0, 3.0]) {
+            assert_relative_eq!(x, exact, max_relative = 1e-15);
         }
         let mut x = [4.0_f32];
         solve(&[0.0], &[2.0], &mut [0.0], &mut x).unwrap();
@@ -144,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_solved_is_said() {
+    fn what_cannot_be_solved_is_reported() {
         // Two equal rows: singular, seen at the second pivot.
         let singular = solve(&[0.0, 1.0], &[1.0, 1.0], &mut [1.0, 0.0], &mut [1.0, 2.0]);
         assert_eq!(singular, Err(Unsolved::ZeroPivot { row: 1, rows: 2 }));

@@ -10,9 +10,9 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::converge::{Judge, error_text};
+use super::converge::{Assess, error_text};
 use super::ladder::{KEY, rungs};
-use super::{Judgement, Plan, Point, Row, StudyError};
+use super::{Assessment, Plan, Point, Row, StudyError};
 use crate::model::{Problem, Registry};
 use crate::output::read_run;
 use crate::result::Status;
@@ -20,8 +20,8 @@ use crate::result::quantity::{self as q, Quantity};
 use crate::result::{Axis, Curve, Dash, Figure, Level, Marker, Panel};
 use crate::units::{readable_known, significant};
 
-/// What is judged unless another number is asked for: the first of these that the reference has.
-const JUDGED: &[&Quantity] = &[
+/// What is assessed unless another number is asked for: the first of these that the reference has.
+const ASSESSED: &[&Quantity] = &[
     &q::TRANSPORT_RATE,
     &q::BED_FLUX,
     &q::STREAM_MAX,
@@ -40,8 +40,8 @@ const REPEATS: usize = 5;
 const REFERENCE: &str = "reference";
 /// Accuracies that a user may want.
 const WANTED: [f64; 4] = [0.1, 1e-2, 1e-4, 1e-6];
-/// A point that costs so many times more than one as good is a waste worth telling.
-const WASTE: f64 = 2.0;
+/// A point that costs this many times more than one with no larger error is reported as not worth its cost.
+const EXCESS: f64 = 2.0;
 
 /// What the user asks for.
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ pub struct Request {
     pub cases: Vec<String>,
     /// `--set` arguments, for the first
     pub overrides: Vec<String>,
-    /// name of the number that is judged
+    /// name of the number that is assessed
     pub quantity: Option<String>,
     /// folder of a finished run, `exact` or `finest`
     pub reference: Option<String>,
@@ -58,7 +58,7 @@ pub struct Request {
 
 /// The number that errors are measured against.
 #[derive(Clone, Debug)]
-struct Truth {
+struct ReferenceValue {
     quantity: &'static Quantity,
     value: f64,
     /// its standard error
@@ -68,17 +68,17 @@ struct Truth {
 
 /// A point that has an error and a cost.
 #[derive(Clone, Copy, Debug)]
-struct Judged {
+struct Assessed {
     row: usize,
     cost: f64,
     error: f64,
 }
 
-/// The plan of a chart, and how to judge it.
+/// The plan of a chart, and how to assess it.
 ///
 /// # Errors
 /// [`StudyError::Case`] if any case is wrong as it stands; [`StudyError::BadReference`].
-pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), StudyError> {
+pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Assess), StudyError> {
     let Some((first, others)) = request.cases.split_first() else {
         return Err(StudyError::BadOver { argument: String::new(), reason: "there is no case".into() });
     };
@@ -93,7 +93,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
         }
         points.extend(more);
     }
-    let (given, exact) = reference(request, &problem)?;
+    let (given, exact) = requested(request, &problem)?;
     if given.is_none()
         && exact.is_none()
         && let Some((words, overrides)) = problem.solver().study().finest
@@ -113,7 +113,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
         repeats: REPEATS,
     };
     let name = request.quantity.clone();
-    Ok((plan, Box::new(move |rows: &[Row]| judge(rows, name.as_deref(), given.or(exact).as_ref()))))
+    Ok((plan, Box::new(move |rows: &[Row]| assess(rows, name.as_deref(), given.or(exact).as_ref()))))
 }
 
 /// The points that their case accepts.
@@ -129,7 +129,7 @@ type Value = Box<dyn Fn(&Quantity) -> Option<(f64, Option<f64>)> + Send>;
 struct Numbers(String, Value);
 
 /// The reference that was asked for, or the closed form of the scene.
-fn reference(request: &Request, problem: &Problem) -> Result<(Option<Numbers>, Option<Numbers>), StudyError> {
+fn requested(request: &Request, problem: &Problem) -> Result<(Option<Numbers>, Option<Numbers>), StudyError> {
     let bad = |argument: &str, reason: String| StudyError::BadReference { argument: argument.into(), reason };
     let exact = || {
         let form = problem.solver().closed_form()?;
@@ -157,7 +157,7 @@ fn reference(request: &Request, problem: &Problem) -> Result<(Option<Numbers>, O
 }
 
 /// What the rows are measured against.
-fn truth(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Option<Truth> {
+fn reference(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Option<ReferenceValue> {
     // Without a reference of its own, the finest point, else the last one of the first series that is done.
     let first = rows.first().map(|row| row.point.series.as_str());
     let done = |row: &&Row| row.status == Status::Done;
@@ -166,7 +166,7 @@ fn truth(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Optio
         .find(|row| row.point.series == REFERENCE)
         .filter(done)
         .or_else(|| rows.iter().rfind(|row| Some(row.point.series.as_str()) == first && done(row)));
-    let of = |quantity: &'static Quantity| -> Option<Truth> {
+    let of = |quantity: &'static Quantity| -> Option<ReferenceValue> {
         let (value, error, words) = match numbers {
             Some(Numbers(words, of)) => of(quantity).map(|(value, error)| (value, error, words.clone()))?,
             None => {
@@ -175,12 +175,12 @@ fn truth(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Optio
                 (reported.value?, reported.stderr, row.point.values.first().cloned().unwrap_or_default())
             }
         };
-        (value != 0.0).then_some(Truth { quantity, value, error, words })
+        (value != 0.0).then_some(ReferenceValue { quantity, value, error, words })
     };
     let named = wanted.and_then(|name| q::find(q::RESULTS, name));
     match wanted {
         Some(_) => of(named?),
-        None => JUDGED.iter().find_map(|quantity| of(quantity)),
+        None => ASSESSED.iter().find_map(|quantity| of(quantity)),
     }
 }
 
@@ -189,32 +189,32 @@ fn work(row: &Row) -> Option<f64> {
     Some(row.cost.work_units).filter(|work| *work > 0.0)
 }
 
-fn judge(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Judgement {
-    let Some(truth) = truth(rows, wanted, numbers) else {
-        let text = "no point gives the number that is judged, or the reference has none".to_owned();
-        return Judgement { findings: vec![("no chart".into(), text)], ..Judgement::default() };
+fn assess(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Assessment {
+    let Some(reference) = reference(rows, wanted, numbers) else {
+        let text = "no point gives the number that is assessed, or the reference has none".to_owned();
+        return Assessment { findings: vec![("no chart".into(), text)], ..Assessment::default() };
     };
     let error = |row: &Row| {
-        let value = row.result(truth.quantity.name).filter(|_| row.status == Status::Done)?;
+        let value = row.result(reference.quantity.name).filter(|_| row.status == Status::Done)?;
         let itself = row.point.series == REFERENCE
-            || numbers.is_none() && row.point.values.first() == Some(&truth.words) && value == truth.value;
-        (!itself).then(|| (value / truth.value - 1.0).abs().max(ROUND_OFF))
+            || numbers.is_none() && row.point.values.first() == Some(&reference.words) && value == reference.value;
+        (!itself).then(|| (value / reference.value - 1.0).abs().max(ROUND_OFF))
     };
     let errors: Vec<Option<f64>> = rows.iter().map(error).collect();
-    let judged: Vec<Judged> = rows
+    let assessed: Vec<Assessed> = rows
         .iter()
         .zip(&errors)
         .enumerate()
-        .filter_map(|(row, (of, error))| Some(Judged { row, cost: of.cost.solve_s, error: (*error)? }))
+        .filter_map(|(row, (of, error))| Some(Assessed { row, cost: of.cost.solve_s, error: (*error)? }))
         .collect();
-    let front = front(&judged);
+    let front = front(&assessed);
     let on = |i: usize| f64::from(u8::from(front.iter().any(|j| j.row == i)));
-    let mut judgement = Judgement {
+    let mut assessment = Assessment {
         subtitle: format!(
             "Error of the {} against {}: {}. Times are medians of up to {REPEATS} solutions.",
-            truth.quantity.title,
-            truth.words,
-            readable_known(truth.value, truth.error, truth.quantity.unit),
+            reference.quantity.title,
+            reference.words,
+            readable_known(reference.value, reference.error, reference.quantity.unit),
         ),
         measures: vec![
             ("error".into(), errors.clone()),
@@ -222,16 +222,17 @@ fn judge(rows: &[Row], wanted: Option<&str>, numbers: Option<&Numbers>) -> Judge
             ("work".into(), rows.iter().map(work).collect()),
             ("spread_s".into(), rows.iter().map(|row| row.cost.spread_s).collect()),
         ],
-        ..Judgement::default()
+        ..Assessment::default()
     };
-    judgement.findings = findings(rows, &judged, &front, &truth);
-    judgement.facts.insert("quantity".into(), json!(truth.quantity.name));
-    judgement
-        .facts
-        .insert("reference".into(), json!({ "value": truth.value, "stderr": truth.error, "what": truth.words }));
-    judgement.facts.insert("front".into(), front.iter().map(|j| json!(name(&rows[j.row]))).collect());
-    judgement.figures.push(figure(rows, &judged, &front, &truth));
-    judgement
+    assessment.findings = findings(rows, &assessed, &front, &reference);
+    assessment.facts.insert("quantity".into(), json!(reference.quantity.name));
+    assessment.facts.insert(
+        "reference".into(),
+        json!({ "value": reference.value, "stderr": reference.error, "what": reference.words }),
+    );
+    assessment.facts.insert("front".into(), front.iter().map(|j| json!(name(&rows[j.row]))).collect());
+    assessment.figures.push(figure(rows, &assessed, &front, &reference));
+    assessment
 }
 
 fn name(row: &Row) -> String {
@@ -240,10 +241,10 @@ fn name(row: &Row) -> String {
 }
 
 /// Those that none beats in both, from the cheapest on.
-fn front(judged: &[Judged]) -> Vec<Judged> {
-    let mut by_cost = judged.to_vec();
+fn front(assessed: &[Assessed]) -> Vec<Assessed> {
+    let mut by_cost = assessed.to_vec();
     by_cost.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.error.total_cmp(&b.error)));
-    let mut front: Vec<Judged> = Vec::new();
+    let mut front: Vec<Assessed> = Vec::new();
     for one in by_cost {
         if front.last().is_none_or(|last| one.error < last.error) {
             front.push(one);
@@ -262,7 +263,12 @@ pub(super) fn time_text(seconds: f64) -> String {
     format!("{} {unit}", significant(factor * seconds, 3))
 }
 
-fn findings(rows: &[Row], judged: &[Judged], front: &[Judged], truth: &Truth) -> Vec<(String, String)> {
+fn findings(
+    rows: &[Row],
+    assessed: &[Assessed],
+    front: &[Assessed],
+    reference: &ReferenceValue,
+) -> Vec<(String, String)> {
     let mut found = Vec::new();
     let mut last = usize::MAX;
     for wanted in WANTED {
@@ -271,11 +277,11 @@ fn findings(rows: &[Row], judged: &[Judged], front: &[Judged], truth: &Truth) ->
         let text = format!("{} ({}) in {}", name(&rows[one.row]), error_text(one.error), time_text(one.cost));
         found.push((format!("for {}", error_text(wanted)), text));
     }
-    let waste = |j: &Judged| {
+    let excess = |j: &Assessed| {
         let better = front.iter().find(|f| f.error <= j.error)?;
         (better.row != j.row).then_some((j.cost / better.cost, *j, *better))
     };
-    let worst = judged.iter().filter_map(waste).max_by(|a, b| a.0.total_cmp(&b.0)).filter(|w| w.0 > WASTE);
+    let worst = assessed.iter().filter_map(excess).max_by(|a, b| a.0.total_cmp(&b.0)).filter(|w| w.0 > EXCESS);
     if let Some((times, bad, good)) = worst {
         let text = format!(
             "{} takes {} for {}: {} is as good in {}, {} times faster",
@@ -286,24 +292,24 @@ fn findings(rows: &[Row], judged: &[Judged], front: &[Judged], truth: &Truth) ->
             time_text(good.cost),
             significant(times, 2)
         );
-        found.push(("wasted".into(), text));
+        found.push(("not worth its cost".into(), text));
     }
-    if let Some(error) = truth.error {
-        let inside = judged.iter().filter(|j| j.error <= (error / truth.value).abs()).count();
-        found.push(("within the error of the reference".into(), format!("{inside} of {} points", judged.len())));
+    if let Some(error) = reference.error {
+        let inside = assessed.iter().filter(|j| j.error <= (error / reference.value).abs()).count();
+        found.push(("within the error of the reference".into(), format!("{inside} of {} points", assessed.len())));
     }
     found
 }
 
 /// Error over time and over work; the failed at the top.
-fn figure(rows: &[Row], judged: &[Judged], front: &[Judged], truth: &Truth) -> Figure {
+fn figure(rows: &[Row], assessed: &[Assessed], front: &[Assessed], reference: &ReferenceValue) -> Figure {
     let mut series: Vec<&str> = Vec::new();
     for row in rows.iter().filter(|row| row.point.series != REFERENCE) {
         if !series.contains(&row.point.series.as_str()) {
             series.push(&row.point.series);
         }
     }
-    let top = 3.0 * judged.iter().map(|j| j.error).fold(1.0 / 3.0, f64::max);
+    let top = 3.0 * assessed.iter().map(|j| j.error).fold(1.0 / 3.0, f64::max);
     let note = |row: &Row, error: f64| {
         let work = work(row).map(|w| format!(", {} units of work", significant(w, 3))).unwrap_or_default();
         format!("{}: {} in {}{work}", name(row), error_text(error), time_text(row.cost.solve_s))
@@ -312,13 +318,13 @@ fn figure(rows: &[Row], judged: &[Judged], front: &[Judged], truth: &Truth) -> F
         let mut curves: Vec<Curve> = Vec::new();
         let along = front.iter().filter_map(|j| Some((cost(&rows[j.row])?, j.error)));
         curves.push(Curve {
-            name: if named { "none is cheaper and better".into() } else { String::new() },
+            name: if named { "Pareto front".into() } else { String::new() },
             points: if named { along.map(Some).collect() } else { Vec::new() },
             line: named.then_some(Dash::Dotted),
             ..Curve::default()
         });
         for (i, series_name) in series.iter().enumerate() {
-            let of = judged.iter().filter(|j| rows[j.row].point.series == **series_name);
+            let of = assessed.iter().filter(|j| rows[j.row].point.series == **series_name);
             let mut of: Vec<(f64, f64, String)> =
                 of.filter_map(|j| Some((cost(&rows[j.row])?, j.error, note(&rows[j.row], j.error)))).collect();
             of.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -348,14 +354,14 @@ fn figure(rows: &[Row], judged: &[Judged], front: &[Judged], truth: &Truth) -> F
         panel(Axis::log("time to solve", "s"), &|row| Some(row.cost.solve_s).filter(|s| *s > 0.0), true),
         panel(Axis::log("work: cells × iterations, grains × steps", "1"), &work, false),
     ];
-    let band = truth.error.map(|e| (e / truth.value).abs()).filter(|e| *e > 0.0);
+    let band = reference.error.map(|e| (e / reference.value).abs()).filter(|e| *e > 0.0);
     Figure {
         stem: "chart".into(),
         caption: format!(
             "Error of the {} against {}, over (a) the time of one solution and (b) the units of work. Dotted: the points that none beats in both.",
-            truth.quantity.title, truth.words
+            reference.quantity.title, reference.words
         ),
-        y: Axis::log(&format!("error of the {}", truth.quantity.title), "1"),
+        y: Axis::log(&format!("error of the {}", reference.quantity.title), "1"),
         panels,
         levels: band.map(|y| Level { y, label: "error of the reference".into() }).into_iter().collect(),
         tint_below: band,
@@ -368,10 +374,10 @@ mod tests {
 
     #[test]
     fn the_front_is_what_none_beats() {
-        let of = |(row, &(cost, error)): (usize, &(f64, f64))| Judged { row, cost, error };
+        let of = |(row, &(cost, error)): (usize, &(f64, f64))| Assessed { row, cost, error };
         let points = [(1.0, 0.5), (2.0, 0.6), (3.0, 0.1), (3.0, 0.2), (9.0, 0.1), (10.0, 0.01)];
-        let judged: Vec<Judged> = points.iter().enumerate().map(of).collect();
-        let found: Vec<usize> = front(&judged).iter().map(|j| j.row).collect();
+        let assessed: Vec<Assessed> = points.iter().enumerate().map(of).collect();
+        let found: Vec<usize> = front(&assessed).iter().map(|j| j.row).collect();
         assert_eq!(found, [0, 2, 5]);
         assert!(front(&[]).is_empty());
     }

@@ -1,6 +1,6 @@
 //! `converge`: the error against exact, finest or closed form, and its order.
 
-use super::{Judgement, Plan, Row, StudyError, mesh, regularisation};
+use super::{Assessment, Plan, Row, StudyError, mesh, regularisation};
 use crate::case::shipped;
 use crate::model::Focus;
 use crate::model::Registry;
@@ -51,7 +51,7 @@ impl Request {
 }
 
 /// Reads what the rows say.
-pub type Judge = Box<dyn FnOnce(&[Row]) -> Judgement + Send>;
+pub type Assess = Box<dyn FnOnce(&[Row]) -> Assessment + Send>;
 
 impl Over {
     /// As on the command line.
@@ -64,11 +64,11 @@ impl Over {
     }
 }
 
-/// The plan of a convergence study, and how to judge it.
+/// The plan of a convergence study, and how to assess it.
 ///
 /// # Errors
 /// [`StudyError::Case`], and [`StudyError::NoSuchSetting`] or [`StudyError::NoClosedForm`] for a model that has none.
-pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), StudyError> {
+pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Assess), StudyError> {
     let (case, problem) = registry.load(&request.case, &request.overrides).map_err(Box::new)?;
     let lacking = || lacking(registry, request.over, case.model);
     let no_reference = |what: &'static str| StudyError::NoClosedForm { model: problem.model_name(), what };
@@ -91,8 +91,8 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
                 given => given.unwrap_or(Reference::Exact),
             };
             let points = regularisation::points(&sizes, reference, request.half_decades);
-            let judge = move |rows: &[Row]| regularisation::judge(&focus, &sizes, reference, rows);
-            Ok((plan(reference, sizes.key, points), Box::new(judge)))
+            let assess = move |rows: &[Row]| regularisation::assess(&focus, &sizes, reference, rows);
+            Ok((plan(reference, sizes.key, points), Box::new(assess)))
         }
         Over::Mesh => {
             let meshes = focus.meshes.ok_or_else(lacking)?;
@@ -103,8 +103,8 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
             };
             let reference = if closed.is_some() { Reference::Exact } else { Reference::Finest };
             let points = mesh::points(&meshes, reference);
-            let judge = move |rows: &[Row]| mesh::judge(&focus, &meshes, closed.as_deref(), rows);
-            Ok((plan(reference, mesh::KEY, points), Box::new(judge)))
+            let assess = move |rows: &[Row]| mesh::assess(&focus, &meshes, closed.as_deref(), rows);
+            Ok((plan(reference, mesh::KEY, points), Box::new(assess)))
         }
     }
 }

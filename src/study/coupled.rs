@@ -8,7 +8,7 @@ use serde_json::json;
 
 use super::converge::curve;
 use super::range::number_and_unit;
-use super::{Judgement, Row};
+use super::{Assessment, Row};
 use crate::closures::transport::LAWS;
 use crate::compare::norms::deviation;
 use crate::result::Status;
@@ -52,15 +52,15 @@ fn error_of(row: &Row, quantity: &Quantity) -> Option<f64> {
 }
 
 /// Adds measures, findings and figures if `rows` are grains in a fluid; `keys` are what is varied.
-pub(super) fn judge(keys: &[&str], rows: &[Row], judgement: &mut Judgement) {
+pub(super) fn assess(keys: &[&str], rows: &[Row], assessment: &mut Assessment) {
     if rows.iter().all(|row| row.result(q::SHIELDS_TURBULENT.name).is_none()) {
         return;
     }
     for quantity in [&q::TRANSPORT_RATE_DIMENSIONLESS, &q::SHIELDS_TURBULENT] {
         let errors = rows.iter().map(|row| error_of(row, quantity)).collect();
-        judgement.measures.push((format!("{}_stderr", quantity.name), errors));
+        assessment.measures.push((format!("{}_stderr", quantity.name), errors));
     }
-    deviations(keys, rows, judgement);
+    deviations(keys, rows, assessment);
     let mut series: Vec<&str> = Vec::new();
     for row in rows.iter().filter(|row| row.status == Status::Done) {
         if !series.contains(&row.point.series.as_str()) {
@@ -79,21 +79,21 @@ pub(super) fn judge(keys: &[&str], rows: &[Row], judgement: &mut Judgement) {
         let rest = resting(rows, name);
         if let (Some(rest), Some(first)) = (rest, found.first()) {
             let text = format!("θ* = {}; θ* = {} moves", significant(rest, 3), significant(first.theta, 3));
-            judgement.findings.push((format!("at rest up to{at}"), text));
+            assessment.findings.push((format!("at rest up to{at}"), text));
         }
         if let Some((law, errors)) = fit(&found) {
             let of = |k: usize| format!("{} ± {}", significant(law.numbers()[k], 3), significant(errors[k], 2));
             let text = format!("A = {}, θ_c = {}, n = {}; {} points", of(0), of(1), of(2), found.len());
-            judgement.findings.push((format!("A (θ* - θ_c)^n{at}"), text));
+            assessment.findings.push((format!("A (θ* - θ_c)^n{at}"), text));
             let fact =
                 json!({ "factor": law.factor, "threshold": law.threshold, "exponent": law.exponent, "stderr": errors });
-            judgement.facts.insert(format!("fit {name}").trim().to_owned(), fact);
+            assessment.facts.insert(format!("fit {name}").trim().to_owned(), fact);
             let span = (law.threshold.max(rest.unwrap_or(0.0)), found.iter().map(|k| k.theta).fold(0.0, f64::max));
             curves.push(drawn("", i + 1, Dash::Solid, span, |x| law.factor * (x - law.threshold).powf(law.exponent)));
         }
         if let Some((threshold, error)) = intercept(&found) {
             let text = format!("θ_c = {} ± {}", significant(threshold, 3), significant(error, 2));
-            judgement.findings.push((format!("Q*^(2/3) reaches 0 at{at}"), text));
+            assessment.findings.push((format!("Q*^(2/3) reaches 0 at{at}"), text));
         }
     }
     if low < high {
@@ -101,7 +101,7 @@ pub(super) fn judge(keys: &[&str], rows: &[Row], judgement: &mut Judgement) {
             let dash = [Dash::Dotted, Dash::Dashed, Dash::DashDotted][i % 3];
             curves.insert(i, drawn(law.name, 0, dash, (law.threshold, high), |x| law.rate(x)));
         }
-        judgement.figures.push(Figure {
+        assessment.figures.push(Figure {
             stem: "transport".into(),
             caption: "Dimensionless transport rate over the Shields number of the largest Reynolds stress, fits A (θ* - θ_c)^n, and published laws."
                 .into(),
@@ -209,7 +209,7 @@ fn intercept(points: &[Known]) -> Option<(f64, f64)> {
 }
 
 /// RMS of the difference of the flux from that of the last point, over the mean flux of that.
-fn deviations(keys: &[&str], rows: &[Row], judgement: &mut Judgement) {
+fn deviations(keys: &[&str], rows: &[Row], assessment: &mut Assessment) {
     let Some(last) = rows.iter().rposition(|row| row.status == Status::Done && row.profile.is_some()) else { return };
     let Some(reference) = rows[last].profile.as_ref() else { return };
     let Some(flux) = reference.get(&q::FLUX) else { return };
@@ -230,9 +230,9 @@ fn deviations(keys: &[&str], rows: &[Row], judgement: &mut Judgement) {
                 text += &format!("; goes like {key} to the power {slope:.2}");
             }
         }
-        judgement.findings.push(("flux profile against that of the last point, eq. (A2)".into(), text));
+        assessment.findings.push(("flux profile against that of the last point, eq. (A2)".into(), text));
     }
-    judgement.measures.push(("flux_deviation".into(), values));
+    assessment.measures.push(("flux_deviation".into(), values));
 }
 
 #[cfg(test)]
@@ -262,7 +262,7 @@ mod tests {
     }
 
     #[test]
-    fn with_noise_the_errors_cover_the_truth() {
+    fn with_noise_the_errors_cover_the_exact_value() {
         let (found, errors) = fit(&law(&THETA, 0.03)).unwrap();
         for ((a, b), e) in found.numbers().into_iter().zip([9.0, 0.04, 1.5]).zip(errors) {
             assert!((a - b).abs() < 3.0 * e && e > 1e-4, "{found:?} ± {errors:?}");

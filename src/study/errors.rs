@@ -1,4 +1,4 @@
-//! How far a run lies from the truth: norms of the velocity, and the numbers that a user would take from it.
+//! How far a run lies from the reference: norms of the velocity, and the numbers that a user would take from it.
 
 use std::borrow::Cow;
 
@@ -20,7 +20,7 @@ pub(super) const CREEP: &str = "creep_velocity_scaled";
 pub(super) type Columns = Vec<(String, Vec<Option<f64>>)>;
 
 /// What a run is compared with.
-pub(super) struct Truth<'a> {
+pub(super) struct ReferenceSolution<'a> {
     /// columns over z \[m]
     pub profile: Cow<'a, Profile>,
     /// numbers \[SI]
@@ -36,9 +36,9 @@ impl Number {
     }
 
     /// Relative error of a row.
-    fn error(&self, row: &Row, truth: &Truth<'_>) -> Option<f64> {
-        let stated = self.stated.filter(|_| truth.exact_yield).and_then(|stated| row.result(stated.name));
-        let measured = || Some(relative((row.result(self.quantity.name)?, truth.results.get(self.quantity.name)?)));
+    fn error(&self, row: &Row, reference: &ReferenceSolution<'_>) -> Option<f64> {
+        let stated = self.stated.filter(|_| reference.exact_yield).and_then(|stated| row.result(stated.name));
+        let measured = || Some(relative((row.result(self.quantity.name)?, reference.results.get(self.quantity.name)?)));
         stated.map(f64::abs).or_else(measured)
     }
 }
@@ -56,23 +56,29 @@ fn relative((a, b): (f64, f64)) -> f64 {
 }
 
 impl Focus {
-    /// The errors that are told in words and drawn: column and title.
-    pub(super) fn told(&self) -> Vec<(String, String)> {
-        let mut told = vec![(L2.to_owned(), "velocity (L2)".to_owned())];
-        told.extend(self.numbers.iter().map(|number| (number.column(), number.quantity.title.into())));
+    /// The errors that are reported in words and drawn: column and title.
+    pub(super) fn reported(&self) -> Vec<(String, String)> {
+        let mut reported = vec![(L2.to_owned(), "velocity (L2)".to_owned())];
+        reported.extend(self.numbers.iter().map(|number| (number.column(), number.quantity.title.into())));
         if self.bed {
-            told.push((AT_BED.into(), "velocity at the bed level".into()));
+            reported.push((AT_BED.into(), "velocity at the bed level".into()));
         }
-        told
+        reported
     }
 
-    /// The columns of measures; a row without truth or profile has none.
-    pub(super) fn measures<'a>(&self, rows: &'a [Row], truth: impl Fn(&'a Row) -> Option<Truth<'a>>) -> Columns {
+    /// The columns of measures; a row without a reference or a profile has none.
+    pub(super) fn measures<'a>(
+        &self,
+        rows: &'a [Row],
+        reference: impl Fn(&'a Row) -> Option<ReferenceSolution<'a>>,
+    ) -> Columns {
         let mut names = vec![L2.to_owned(), LARGEST.into(), RMS.into()];
         names.extend(self.paper_rms.then(|| RMS_PAPER.to_owned()));
         names.extend(self.numbers.iter().map(Number::column));
         names.extend(self.bed.then(|| AT_BED.to_owned()));
-        let found = rows.iter().map(|row| truth(row).and_then(|truth| self.measure(row, &truth)).unwrap_or_default());
+        let found = rows
+            .iter()
+            .map(|row| reference(row).and_then(|reference| self.measure(row, &reference)).unwrap_or_default());
         let found: Vec<Vec<Option<f64>>> = found.collect();
         let column =
             |i: usize| found.iter().map(|values| values.get(i).copied().flatten().filter(|x| x.is_finite())).collect();
@@ -80,29 +86,29 @@ impl Focus {
     }
 
     /// The measures of one row, in the order of the columns.
-    fn measure(&self, row: &Row, truth: &Truth<'_>) -> Option<Vec<Option<f64>>> {
+    fn measure(&self, row: &Row, reference: &ReferenceSolution<'_>) -> Option<Vec<Option<f64>>> {
         let run = row.profile.as_ref()?;
-        let d = deviation(&truth.profile, run, self.velocity)?;
+        let d = deviation(&reference.profile, run, self.velocity)?;
         let rms = d.rms / self.velocity_unit;
         let mut values = vec![d.l2_relative, d.linf_relative, Some(rms)];
         values.extend(self.paper_rms.then(|| Some(rms / (d.levels as f64).sqrt())));
-        values.extend(self.numbers.iter().map(|number| number.error(row, truth)));
-        values.extend(self.bed.then(|| self.at_bed(run, truth).map(relative)));
+        values.extend(self.numbers.iter().map(|number| number.error(row, reference)));
+        values.extend(self.bed.then(|| self.at_bed(run, reference).map(relative)));
         Some(values)
     }
 
-    /// Grain velocity at the highest level that has one, in the run and in truth.
-    fn at_bed(&self, run: &Profile, truth: &Truth<'_>) -> Option<(f64, f64)> {
+    /// Grain velocity at the highest level that has one, in the run and in its reference.
+    fn at_bed(&self, run: &Profile, reference: &ReferenceSolution<'_>) -> Option<(f64, f64)> {
         let values = run.get(self.velocity)?;
         let top = values.iter().rposition(Option::is_some)?;
         let z = run.axis().get(top).copied()?;
-        Some((values.get(top).copied().flatten()?, truth.profile.at(self.velocity, z)?))
+        Some((values.get(top).copied().flatten()?, reference.profile.at(self.velocity, z)?))
     }
 
-    /// The velocity half-way between the bottom and the highest level below which nothing moves in truth, in units of
+    /// The velocity half-way between the bottom and the highest level below which nothing moves in the reference, in units of
     /// velocity.
-    pub(super) fn creep(&self, row: &Row, truth: &Profile) -> Option<f64> {
-        let (levels, values) = (truth.axis(), truth.get(self.velocity)?);
+    pub(super) fn creep(&self, row: &Row, reference: &Profile) -> Option<f64> {
+        let (levels, values) = (reference.axis(), reference.get(self.velocity)?);
         let resting = values.iter().position(|value| *value != Some(0.0)).unwrap_or(values.len());
         let (bottom, top) = (levels.first()?, levels.get(resting.checked_sub(1)?)?);
         Some(row.profile.as_ref()?.at(self.velocity, 0.5 * (bottom + top))?.abs() / self.velocity_unit)

@@ -10,8 +10,8 @@ use crate::model::Registry;
 use crate::result::quantity::{self as q, Quantity};
 use crate::result::{Class, Context, Results};
 
-/// What is judged: the first of these that a point and its closed form have.
-const JUDGED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
+/// What is assessed: the first of these that a point and its closed form have.
+const ASSESSED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
 /// A point whose neighbour holds is solved again between them if it takes no longer than this \[s].
 const PATIENCE: f64 = 30.0;
 /// Relative width to which a limit is bisected.
@@ -47,7 +47,7 @@ pub struct Limit {
 pub(super) fn solved(request: &Request, form: Option<Box<dyn ClosedForm>>, results: &Results) -> Found {
     let error = form.and_then(|form| {
         let of = |q: &&&Quantity| Some((results.get(q.name)?, form.results().get(q.name).filter(|x| *x != 0.0)?));
-        JUDGED.iter().find_map(|q| of(&q)).map(|(value, exact)| (value / exact - 1.0).abs().max(ROUND_OFF))
+        ASSESSED.iter().find_map(|q| of(&q)).map(|(value, exact)| (value / exact - 1.0).abs().max(ROUND_OFF))
     });
     if let Some(c) = results.get(q::WELL_POSEDNESS.name).filter(|c| *c > 0.0) {
         let reason = format!("ill-posed in two and three dimensions, C = {c:.3}: this flow in one dimension hides it");
@@ -59,7 +59,7 @@ pub(super) fn solved(request: &Request, form: Option<Box<dyn ClosedForm>>, resul
 }
 
 /// Runs the case with one more value, without a folder.
-fn trial(registry: &Registry, request: &Request, overrides: &[String]) -> Found {
+fn attempt(registry: &Registry, request: &Request, overrides: &[String]) -> Found {
     let failed = |class, reason: String| Found { class, error: None, reason };
     let load = || -> Result<_, CaseError> {
         registry.load(&request.case, &[&request.overrides[..], overrides].concat()).map(|(_, problem)| problem)
@@ -98,7 +98,7 @@ fn bisect(
         }
         let mut overrides = vec![format!("{key}={middle:e} {unit}").trim().to_owned()];
         overrides.extend_from_slice(rest);
-        let one = trial(registry, request, &overrides);
+        let one = attempt(registry, request, &overrides);
         if one.class == Class::Holds {
             holds = middle;
         } else {
@@ -138,7 +138,7 @@ pub fn first(registry: &Registry, request: &Request) -> Result<Along, StudyError
     let mut last: Option<(f64, Found)> = None;
     for value in &varied.values {
         let (number, unit) = number_and_unit(value).ok_or_else(|| bad("the key takes numbers"))?;
-        let found = trial(registry, request, &[format!("{}={value}", varied.key)]);
+        let found = attempt(registry, request, &[format!("{}={value}", varied.key)]);
         if let Some((before, known)) = &last
             && (known.class == Class::Holds) != (found.class == Class::Holds)
         {
@@ -199,7 +199,7 @@ mod tests {
             tolerance: 0.5,
             predicted: None,
         };
-        let class = |set: &str| trial(&crate::models::builtin(), &request, &[set.to_owned()]).class;
+        let class = |set: &str| attempt(&crate::models::builtin(), &request, &[set.to_owned()]).class;
         assert_eq!(class("grid.cells=48"), Class::Holds);
         assert_eq!(class("flow.pressure_gradient=1e5"), Class::Unphysical);
         assert_eq!(class("bed.level=1 m"), Class::Refused);

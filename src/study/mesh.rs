@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use serde_json::{Map, json};
 
 use super::converge::{Reference, curve, error_text, line, range_text};
-use super::errors::{Columns, L2, RMS, RMS_PAPER, Truth, column};
+use super::errors::{Columns, L2, RMS, RMS_PAPER, ReferenceSolution, column};
 use super::orders::{ROUND_OFF, overall, slopes};
-use super::{Judgement, Point, Row};
+use super::{Assessment, Point, Row};
 use crate::model::ClosedForm;
 use crate::model::{Focus, Meshes};
 use crate::result::Status;
@@ -79,9 +79,9 @@ impl Series<'_> {
     }
 }
 
-pub(super) fn judge(focus: &Focus, meshes: &Meshes, closed: Option<&dyn ClosedForm>, rows: &[Row]) -> Judgement {
+pub(super) fn assess(focus: &Focus, meshes: &Meshes, closed: Option<&dyn ClosedForm>, rows: &[Row]) -> Assessment {
     let finest = rows.iter().find(|row| row.point.series == REFERENCE && row.status == Status::Done);
-    let truth = |row: &Row| {
+    let solution = |row: &Row| {
         let (profile, results) = match closed {
             Some(form) => (Cow::Owned(form.at(row.profile.as_ref()?)?), form.results()),
             None => {
@@ -89,12 +89,12 @@ pub(super) fn judge(focus: &Focus, meshes: &Meshes, closed: Option<&dyn ClosedFo
                 (Cow::Borrowed(finest.profile.as_ref()?), &finest.results)
             }
         };
-        Some(Truth { profile, results, exact_yield: false })
+        Some(ReferenceSolution { profile, results, exact_yield: false })
     };
-    let mut measures = focus.measures(rows, truth);
+    let mut measures = focus.measures(rows, solution);
     let mut more: Columns = Vec::new();
     let kinds: Vec<Series<'_>> = meshes.kinds.iter().map(|(name, _)| series(name, rows, &measures)).collect();
-    let mut judgement = Judgement {
+    let mut assessment = Assessment {
         subtitle: format!(
             "Relative error of the {} against {}.",
             focus.velocity.title,
@@ -105,7 +105,7 @@ pub(super) fn judge(focus: &Focus, meshes: &Meshes, closed: Option<&dyn ClosedFo
             }
         ),
         figures: vec![figure(focus, &kinds)],
-        ..Judgement::default()
+        ..Assessment::default()
     };
     let wanted: Vec<(String, &str)> = std::iter::once((L2.to_owned(), "velocity (L2)"))
         .chain(focus.numbers.iter().map(|number| (number.column(), number.quantity.title)))
@@ -114,17 +114,17 @@ pub(super) fn judge(focus: &Focus, meshes: &Meshes, closed: Option<&dyn ClosedFo
     for kind in &kinds {
         if let [only] = &kinds[..] {
             let text = |(name, title): &(String, &str)| ((*title).to_owned(), only.text(name));
-            judgement.findings.extend(wanted.iter().map(text));
+            assessment.findings.extend(wanted.iter().map(text));
         } else {
             let text = wanted.iter().map(|(name, title)| format!("{title} {}", kind.text(name)));
-            judgement.findings.push((kind.name.into(), text.collect::<Vec<_>>().join("; ")));
+            assessment.findings.push((kind.name.into(), text.collect::<Vec<_>>().join("; ")));
         }
         if let (true, Some(paper), Some(own)) = (focus.paper_rms, kind.order(RMS_PAPER), kind.order(RMS))
             && kind.order(L2).is_some()
         {
             let text =
                 format!("order {paper:.2} where the root mean square has {own:.2}: it divides by N outside the root");
-            judgement.findings.push(("  RMS of the paper".into(), text));
+            assessment.findings.push(("  RMS of the paper".into(), text));
         }
         let number = focus.numbers.first().and_then(|number| kind.order(&number.column()));
         let mut orders = Map::new();
@@ -144,17 +144,17 @@ pub(super) fn judge(focus: &Focus, meshes: &Meshes, closed: Option<&dyn ClosedFo
         }
         more.push((name.replacen("error", "order", 1), orders));
     }
-    judgement.findings.extend(meshes.remarks.iter().map(|&(label, text)| (label.to_owned(), text.to_owned())));
+    assessment.findings.extend(meshes.remarks.iter().map(|&(label, text)| (label.to_owned(), text.to_owned())));
     // Where there is a closed form, the corner at the yield level is all there is of an error.
     if closed.is_some() {
         let moves = "without a node there, the error goes with the square of the distance from the yield level to the nearest node";
-        judgement.findings.push(("orders".into(), moves.into()));
+        assessment.findings.push(("orders".into(), moves.into()));
     }
-    judgement.facts.insert("orders_from_coarsest_to_finest".into(), facts.into());
+    assessment.facts.insert("orders_from_coarsest_to_finest".into(), facts.into());
     drop(kinds);
     measures.extend(more);
-    judgement.measures = measures;
-    judgement
+    assessment.measures = measures;
+    assessment
 }
 
 fn series<'a>(name: &'static str, rows: &[Row], measures: &'a Columns) -> Series<'a> {

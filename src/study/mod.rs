@@ -1,10 +1,10 @@
 //! Studies: one case at many points, run in parallel into ordinary run folders, and what the points say together.
 //!
 //! ```text
-//! converge, sweep, chart, stability, calibrate ─► Plan (points: overrides of one case) ─► conduct: run, judge, write ─► study.json, points.csv, page
+//! converge, sweep, chart, stability, calibrate ─► Plan (points: overrides of one case) ─► conduct: run, assess, write ─► study.json, points.csv, page
 //! ```
 //!
-//! A verb makes a [`Plan`] and judges its [`Row`]s: measures per point, findings in words, figures. Everything else is the
+//! A verb makes a [`Plan`] and assesses its [`Row`]s: measures per point, findings in words, figures. Everything else is the
 //! same for all: [`conduct`] runs the points, skips those that are done, turns a failure into a row, and writes the folder.
 
 pub mod calibrate;
@@ -100,7 +100,7 @@ pub struct Row {
 
 /// What the rows say together.
 #[derive(Clone, Debug, Default)]
-pub struct Judgement {
+pub struct Assessment {
     /// a sentence under the title
     pub subtitle: String,
     /// columns that the verb adds to each row: name, and one value per row

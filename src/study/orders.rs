@@ -83,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn the_constant_of_the_law_is_found_and_its_misfit_told() {
+    fn the_constant_of_the_law_is_found_and_its_misfit_reported() {
         let s = 1e-2;
         let lambda = [1e-1, 1e-3, 1e-5, 1e-7];
         let errors: Vec<Option<f64>> = lambda.iter().map(|&l| Some(3.0 * Law::Logarithmic.at(l, s).abs())).collect();

@@ -1,14 +1,14 @@
 //! The page of a study: what was found, the figures, every point, the origin.
 
 use super::record::Head;
-use super::{Judgement, Numbers, Row};
+use super::{Assessment, Numbers, Row};
 use crate::compare::origin;
 use crate::plot::{Cell, Document, Section, document_html};
 use crate::result::{Cost, Provenance, Status, quantity};
 use crate::units::{readable, significant};
 
 /// Results that the table of points shows, where any point has them; all of them are in `points.csv`.
-const SHOWN: &[&quantity::Quantity] = &[
+const QUANTITIES: &[&quantity::Quantity] = &[
     &quantity::TRANSPORT_RATE,
     &quantity::SHIELDS,
     &quantity::YIELD_LEVEL,
@@ -21,33 +21,33 @@ const SHOWN: &[&quantity::Quantity] = &[
 pub(super) fn html(
     head: &Head<'_>,
     rows: &[Row],
-    judgement: &Judgement,
+    assessment: &Assessment,
     cost: &Cost,
     provenance: &Provenance,
 ) -> String {
     let title = format!("{} {}", head.plan.verb, head.name);
-    let found = judgement.findings.iter().map(|(label, text)| vec![label.as_str().into(), text.as_str().into()]);
+    let found = assessment.findings.iter().map(|(label, text)| vec![label.as_str().into(), text.as_str().into()]);
     let mut sections = vec![Section::Table {
         heading: "Found",
         lead: String::new(),
         head: vec!["what".into(), "result".into()],
         rows: found.collect(),
     }];
-    sections.extend(judgement.parameters.as_ref().map(numbers));
+    sections.extend(assessment.parameters.as_ref().map(numbers));
     sections.extend([
-        Section::Warnings(warnings(head, rows, judgement)),
-        Section::Figures(&judgement.figures),
-        points(head, rows, judgement),
+        Section::Warnings(warnings(head, rows, assessment)),
+        Section::Figures(&assessment.figures),
+        points(head, rows, assessment),
         origin(cost, &Provenance { source: head.command.into(), ..provenance.clone() }),
     ]);
-    document_html(&Document { title: &title, subtitle: &judgement.subtitle, sections: &sections })
+    document_html(&Document { title: &title, subtitle: &assessment.subtitle, sections: &sections })
 }
 
 /// What failed as a whole, and the points that are missing, and why.
-fn warnings(head: &Head<'_>, rows: &[Row], judgement: &Judgement) -> Vec<String> {
+fn warnings(head: &Head<'_>, rows: &[Row], assessment: &Assessment) -> Vec<String> {
     let missing = rows.iter().filter(|row| row.status != Status::Done);
     let missing = missing.map(|row| format!("{}: {}.", row.point.name(&head.plan.varied), row.reason()));
-    judgement.failure.iter().map(|failure| format!("{}.", failure.message)).chain(missing).collect()
+    assessment.failure.iter().map(|failure| format!("{}.", failure.message)).chain(missing).collect()
 }
 
 /// A table of names and numbers.
@@ -67,14 +67,14 @@ fn numbers(table: &Numbers) -> Section<'static> {
     }
 }
 
-fn points(head: &Head<'_>, rows: &[Row], judgement: &Judgement) -> Section<'static> {
-    let shown: Vec<&quantity::Quantity> =
-        SHOWN.iter().copied().filter(|q| rows.iter().any(|row| row.result(q.name).is_some())).collect();
+fn points(head: &Head<'_>, rows: &[Row], assessment: &Assessment) -> Section<'static> {
+    let reported: Vec<&quantity::Quantity> =
+        QUANTITIES.iter().copied().filter(|q| rows.iter().any(|row| row.result(q.name).is_some())).collect();
     let mut heads: Vec<String> = vec!["series".into()];
     heads.extend(head.plan.varied.iter().cloned());
     heads.push("status".into());
-    heads.extend(judgement.measures.iter().map(|(name, _)| name.replace('_', " ")));
-    heads.extend(shown.iter().map(|q| q.title.to_owned()));
+    heads.extend(assessment.measures.iter().map(|(name, _)| name.replace('_', " ")));
+    heads.extend(reported.iter().map(|q| q.title.to_owned()));
     heads.extend(["iterations".to_owned(), "solver".to_owned()]);
     let cells = rows.iter().enumerate().map(|(i, row)| {
         let number = |x: Option<f64>, text: &dyn Fn(f64) -> String| {
@@ -83,9 +83,9 @@ fn points(head: &Head<'_>, rows: &[Row], judgement: &Judgement) -> Section<'stat
         let mut cells: Vec<Cell> = vec![row.point.series.as_str().into()];
         cells.extend(row.point.values.iter().map(|value| value.as_str().into()));
         cells.push(Cell::Text(row.status.to_string()));
-        let measures = judgement.measures.iter();
+        let measures = assessment.measures.iter();
         cells.extend(measures.map(|(_, all)| number(all.get(i).copied().flatten(), &measure)));
-        cells.extend(shown.iter().map(|q| number(row.result(q.name), &|x| readable(x, q.unit))));
+        cells.extend(reported.iter().map(|q| number(row.result(q.name), &|x| readable(x, q.unit))));
         cells.push(number(row.iterations.map(|n| n as f64), &|n| format!("{n}")));
         let ran = (row.status == Status::Done).then_some(row.cost.solve_s);
         cells.push(number(ran, &|s| format!("{:.2} ms", 1e3 * s)));

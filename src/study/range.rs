@@ -17,7 +17,7 @@ pub struct Varied {
 }
 
 /// More points than this are a mistake.
-pub const MOST: usize = 10_000;
+pub const MAX_POINTS: usize = 10_000;
 
 /// Reads one `--over` argument.
 ///
@@ -68,8 +68,8 @@ fn range(parts: &[&str]) -> Result<(Vec<String>, bool), String> {
     if units.len() > 1 {
         return Err(format!("it has two units, {}", units.join(" and ")));
     }
-    if n.fract() != 0.0 || !(2.0..=MOST as f64).contains(&n) {
-        return Err(format!("{n} is not a count from 2 to {MOST}"));
+    if n.fract() != 0.0 || !(2.0..=MAX_POINTS as f64).contains(&n) {
+        return Err(format!("{n} is not a count from 2 to {MAX_POINTS}"));
     }
     let log = mode.is_some();
     if log && !(a > 0.0 && b > 0.0) {
@@ -149,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said() {
+    fn what_is_wrong_is_reported() {
         for (argument, words) in [
             ("a.b", "no ="),
             ("b=1,2", "not table.key"),

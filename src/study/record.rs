@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde_json::{Map, Value, json};
 
-use super::{Judgement, Numbers, Plan, Row};
+use super::{Assessment, Numbers, Plan, Row};
 use crate::output::StudyFolder;
 use crate::result::{Cost, Provenance, Status};
 
@@ -54,26 +54,26 @@ impl Head<'_> {
         &self,
         status: Status,
         rows: &[Row],
-        judgement: &Judgement,
+        assessment: &Assessment,
         cost: &Cost,
         provenance: &Provenance,
     ) -> Value {
         let mut object = self.object(status);
-        if let Some(failure) = &judgement.failure {
+        if let Some(failure) = &assessment.failure {
             object.insert("error".into(), json!(failure));
         }
-        object.insert("facts".into(), judgement.facts.clone().into());
-        let points = rows.iter().enumerate().map(|(i, row)| self.point(i, row, judgement));
+        object.insert("facts".into(), assessment.facts.clone().into());
+        let points = rows.iter().enumerate().map(|(i, row)| self.point(i, row, assessment));
         object.insert("points".into(), points.collect::<Vec<_>>().into());
         object.insert("cost".into(), json!(cost));
         object.insert("provenance".into(), json!(provenance));
         object.into()
     }
 
-    fn point(&self, i: usize, row: &Row, judgement: &Judgement) -> Value {
+    fn point(&self, i: usize, row: &Row, assessment: &Assessment) -> Value {
         let values = self.plan.varied.iter().zip(&row.point.values).filter(|(_, v)| !v.is_empty());
         let values: Map<String, Value> = values.map(|(k, v)| (k.clone(), v.as_str().into())).collect();
-        let measured = judgement.measures.iter();
+        let measured = assessment.measures.iter();
         let measures: Map<String, Value> =
             measured.map(|(name, all)| (name.clone(), json!(all.get(i).copied().flatten()))).collect();
         json!({
@@ -99,7 +99,7 @@ pub(super) fn write_table(
     to: &mut dyn Write,
     plan: &Plan,
     rows: &[Row],
-    judgement: &Judgement,
+    assessment: &Assessment,
     comments: &[String],
 ) -> io::Result<()> {
     for comment in comments {
@@ -111,7 +111,7 @@ pub(super) fn write_table(
     let mut header = fixed(&["series"]);
     header.extend(plan.varied.iter().cloned());
     header.extend(fixed(&["status", "iterations"]));
-    header.extend(judgement.measures.iter().map(|(name, _)| name.clone()));
+    header.extend(assessment.measures.iter().map(|(name, _)| name.clone()));
     header.extend(results.iter().map(|name| (*name).to_owned()));
     header.extend(fixed(&["solve_s", "reason", "folder"]));
     writer.write_record(&header)?;
@@ -120,7 +120,7 @@ pub(super) fn write_table(
         let mut fields = vec![row.point.series.clone()];
         fields.extend(row.point.values.iter().cloned());
         fields.extend([row.status.to_string(), row.iterations.map(|n| n.to_string()).unwrap_or_default()]);
-        fields.extend(judgement.measures.iter().map(|(_, all)| number(all.get(i).copied().flatten())));
+        fields.extend(assessment.measures.iter().map(|(_, all)| number(all.get(i).copied().flatten())));
         fields.extend(results.iter().map(|name| number(row.result(name))));
         let ran = row.status == Status::Done;
         fields.push(number(ran.then_some(row.cost.solve_s)));

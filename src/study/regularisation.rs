@@ -1,4 +1,4 @@
-//! Convergence over the size of the regularisation: what lambda costs and what it buys, against the exact yield on the same
+//! Convergence over the size of the regularisation: what lambda costs and which error it gives, against the exact yield on the same
 //! mesh or the smallest lambda.
 
 use std::borrow::Cow;
@@ -6,9 +6,9 @@ use std::borrow::Cow;
 use serde_json::{Map, Value, json};
 
 use super::converge::{Reference, curve, error_text, line, range_text};
-use super::errors::{CREEP, Columns, L2, RMS_PAPER, Truth, column};
+use super::errors::{CREEP, Columns, L2, RMS_PAPER, ReferenceSolution, column};
 use super::orders::{Fit, between, fit, overall, slopes};
-use super::{Judgement, Point, Row};
+use super::{Assessment, Point, Row};
 use crate::model::{Focus, Rule, Sizes, Smoothed};
 use crate::result::Status;
 use crate::result::quantity::SHEAR_RATE;
@@ -75,7 +75,7 @@ impl Series<'_> {
         between(lambda, &known)
     }
 
-    /// Slopes from each size to the one before it, from the size on that tells them.
+    /// Slopes from each size to the one before it, from the size on that resolves them.
     fn slopes(&self, name: &str, sizes: &Sizes) -> Vec<f64> {
         let found = slopes(&self.lambda, &self.errors(name));
         let small = self.lambda.iter().zip(found).filter(|(l, _)| **l < 0.9 * sizes.slopes_from);
@@ -86,7 +86,7 @@ impl Series<'_> {
     fn text(&self, name: &str, sizes: &Sizes) -> Vec<String> {
         let size = |lambda: f64| sizes.text(&format!("{lambda:e}"));
         let at = |lambda: &f64| self.at(name, *lambda).map(|e| format!("{} at λ = {}", error_text(e), size(*lambda)));
-        let mut parts: Vec<String> = sizes.shown.iter().filter_map(at).collect();
+        let mut parts: Vec<String> = sizes.reported.iter().filter_map(at).collect();
         // A number may have no meaning where too much creeps.
         let first = self.errors(name).iter().position(Option::is_some).filter(|&i| i > 0);
         let above = first.and_then(|i| self.lambda.get(i));
@@ -97,65 +97,65 @@ impl Series<'_> {
     }
 }
 
-pub(super) fn judge(focus: &Focus, sizes: &Sizes, reference: Reference, rows: &[Row]) -> Judgement {
+pub(super) fn assess(focus: &Focus, sizes: &Sizes, reference: Reference, rows: &[Row]) -> Assessment {
     let done = |row: &&Row| row.status == Status::Done && row.profile.is_some();
     let exact = rows.iter().filter(done).find(|row| row.point.series == EXACT);
     let finest = |of: &Row| {
         let same = rows.iter().filter(done).filter(|row| row.point.series == of.point.series);
         same.min_by(|a, b| lambda(a).unwrap_or(0.0).total_cmp(&lambda(b).unwrap_or(0.0)))
     };
-    let truth = |row| {
+    let solution = |row| {
         let exact_yield = reference == Reference::Exact;
         let base: &Row = if exact_yield { exact? } else { finest(row)? };
         let profile = Cow::Borrowed(base.profile.as_ref()?);
-        (!std::ptr::eq(base, row)).then_some(Truth { profile, results: &base.results, exact_yield })
+        (!std::ptr::eq(base, row)).then_some(ReferenceSolution { profile, results: &base.results, exact_yield })
     };
-    let mut measures = focus.measures(rows, truth);
+    let mut measures = focus.measures(rows, solution);
     if let Some(at_rest) = exact.and_then(|row| row.profile.as_ref()).filter(|_| sizes.creep) {
         let creep = rows.iter().map(|row| focus.creep(row, at_rest).filter(|_| lambda(row).is_some()));
         measures.push((CREEP.into(), creep.collect()));
     }
-    let told = told(focus, &measures);
+    let reported = reported(focus, &measures);
     let series: Vec<Series<'_>> = sizes.laws.iter().map(|law| series(*law, rows, &measures)).collect();
     let best = exact.or_else(|| finest(rows.first()?));
     let s = best.and_then(|row| row.profile.as_ref()?.range(&SHEAR_RATE)).map(|(_, high)| high / sizes.shear_unit);
     let fits: Vec<Option<Fit>> =
         series.iter().map(|one| fit(one.law.falls?, &one.lambda, &one.errors(L2), s?, ASYMPTOTIC)).collect();
     let bn = sizes.rule.zip(best).and_then(|(rule, row)| Some((rule, rule.bingham_number(&row.results)?)));
-    let mut judgement = Judgement {
+    let mut assessment = Assessment {
         subtitle: format!(
             "Relative error of the {} against {}, over λ in {}.",
             focus.velocity.title,
             if reference == Reference::Exact { "the exact yield on the same mesh" } else { "the smallest λ" },
             unit_text(sizes)
         ),
-        figures: vec![figure(focus, sizes, (&series, &told), &fits, s, bn.map(|(_, bn)| Rule::size(bn)))],
-        ..Judgement::default()
+        figures: vec![figure(focus, sizes, (&series, &reported), &fits, s, bn.map(|(_, bn)| Rule::size(bn)))],
+        ..Assessment::default()
     };
     let mut laws = Map::new();
     for (one, fit) in series.iter().zip(&fits) {
-        judgement.findings.extend(findings(sizes, one, &told, *fit, series.len() == 1));
-        laws.insert(one.law.name.into(), law_facts(sizes, one, &told, *fit));
+        assessment.findings.extend(findings(sizes, one, &reported, *fit, series.len() == 1));
+        laws.insert(one.law.name.into(), law_facts(sizes, one, &reported, *fit));
     }
     if let Some(s) = s.filter(|_| fits.iter().any(Option::is_some)) {
         let largest = sizes.text(&significant(s, 3));
         let text = format!("s = {largest} is the largest shear rate of the reference; fitted for λ < s/100");
-        judgement.findings.push(("fits".into(), text));
-        judgement.facts.insert("shear_rate_scaled".into(), json!(s));
+        assessment.findings.push(("fits".into(), text));
+        assessment.facts.insert("shear_rate_scaled".into(), json!(s));
     }
     if let (Some((rule, bn)), Some(paper)) = (bn, series.first()) {
-        judgement.findings.push(("rule of the paper".into(), rule_text(&rule, paper, &told, bn)));
-        judgement.facts.insert("rule".into(), rule_facts(paper, bn));
+        assessment.findings.push(("rule of the paper".into(), rule_text(&rule, paper, &reported, bn)));
+        assessment.facts.insert("rule".into(), rule_facts(paper, bn));
     }
     // On the mesh of the smallest size there is no other.
     // They are about that reference: the smallest size is solved like the others.
     let remarks = sizes.remarks.iter().filter(|_| reference == Reference::Exact);
-    judgement.findings.extend(remarks.map(|&(label, text)| (label.to_owned(), text.to_owned())));
-    judgement.facts.insert("shear_unit_1_s".into(), json!(sizes.shear_unit));
-    judgement.facts.insert("velocity_unit_m_s".into(), json!(focus.velocity_unit));
-    judgement.facts.insert("laws".into(), laws.into());
+    assessment.findings.extend(remarks.map(|&(label, text)| (label.to_owned(), text.to_owned())));
+    assessment.facts.insert("shear_unit_1_s".into(), json!(sizes.shear_unit));
+    assessment.facts.insert("velocity_unit_m_s".into(), json!(focus.velocity_unit));
+    assessment.facts.insert("laws".into(), laws.into());
     let mut more: Columns = Vec::new();
-    for (name, _) in &told {
+    for (name, _) in &reported {
         let mut column = vec![None; rows.len()];
         for one in &series {
             for (&i, slope) in one.rows.iter().zip(slopes(&one.lambda, &one.errors(name))) {
@@ -167,15 +167,15 @@ pub(super) fn judge(focus: &Focus, sizes: &Sizes, reference: Reference, rows: &[
     }
     drop(series);
     measures.extend(more);
-    judgement.measures = measures;
-    judgement
+    assessment.measures = measures;
+    assessment
 }
 
-/// The errors that are told, and the creep where it is measured.
-fn told(focus: &Focus, measures: &Columns) -> Vec<(String, String)> {
+/// The errors that are reported, and the creep where it is measured.
+fn reported(focus: &Focus, measures: &Columns) -> Vec<(String, String)> {
     let creep = measures.iter().any(|(name, _)| name == CREEP);
     let creep = creep.then(|| (CREEP.to_owned(), "creep of what is at rest".to_owned()));
-    focus.told().into_iter().chain(creep).collect()
+    focus.reported().into_iter().chain(creep).collect()
 }
 
 fn unit_text(sizes: &Sizes) -> String {
@@ -192,11 +192,11 @@ fn series<'a>(law: Smoothed, rows: &[Row], measures: &'a Columns) -> Series<'a> 
     Series { law, rows, lambda, measures }
 }
 
-/// What is said of a law: of the velocity alone where it is one of several, of each measure where it is the only one.
+/// What is reported of a law: of the velocity alone where it is one of several, of each measure where it is the only one.
 fn findings(
     sizes: &Sizes,
     one: &Series<'_>,
-    told: &[(String, String)],
+    reported: &[(String, String)],
     fit: Option<Fit>,
     alone: bool,
 ) -> Vec<(String, String)> {
@@ -209,19 +209,19 @@ fn findings(
         if parts.is_empty() { "no errors".into() } else { parts.join(", ") }
     };
     if alone {
-        told.iter().map(|(name, title)| (title.clone(), text(name))).collect()
+        reported.iter().map(|(name, title)| (title.clone(), text(name))).collect()
     } else {
         vec![(one.law.name.into(), text(L2))]
     }
 }
 
-fn law_facts(sizes: &Sizes, one: &Series<'_>, told: &[(String, String)], fit: Option<Fit>) -> Value {
+fn law_facts(sizes: &Sizes, one: &Series<'_>, reported: &[(String, String)], fit: Option<Fit>) -> Value {
     let ends = |name: &str| {
         let found = one.slopes(name, sizes);
         (found.iter().copied().reduce(f64::min), found.iter().copied().reduce(f64::max))
     };
     let (least, most) = ends(L2);
-    let slopes = told.iter().map(|(name, _)| {
+    let slopes = reported.iter().map(|(name, _)| {
         let (least, most) = ends(name);
         let whole = overall(&one.lambda, &one.errors(name));
         (name.clone(), json!({ "least": least, "most": most, "overall": whole }))
@@ -233,15 +233,16 @@ fn law_facts(sizes: &Sizes, one: &Series<'_>, told: &[(String, String)], fit: Op
     json!({ "slope_least": least, "slope_most": most, "slopes": slopes, "fit": fit })
 }
 
-fn rule_text(rule: &Rule, paper: &Series<'_>, told: &[(String, String)], bn: f64) -> String {
+fn rule_text(rule: &Rule, paper: &Series<'_>, reported: &[(String, String)], bn: f64) -> String {
     let size = Rule::size(bn);
-    let errors = told.iter();
+    let errors = reported.iter();
     let errors = errors.filter_map(|(name, title)| Some(format!("{title} {}", error_text(paper.at(name, size)?))));
     let errors = errors.collect::<Vec<_>>().join(", ");
     let rms = paper.at(RMS_PAPER, size).map(|e| format!(" (its own RMS: {e:.1e})")).unwrap_or_default();
-    let buys = if errors.is_empty() { "lies outside the points".into() } else { format!("buys {errors}{rms}") };
+    let gives =
+        if errors.is_empty() { "lies outside the points".into() } else { format!("gives these errors: {errors}{rms}") };
     format!(
-        "λ = min(1e-4, 1e-4/Bn) = {} with Bn = {} = {} {buys}",
+        "λ = min(1e-4, 1e-4/Bn) = {} with Bn = {} = {} {gives}",
         significant(size, 2),
         rule.bingham,
         significant(bn, 3)
@@ -259,7 +260,7 @@ fn rule_facts(paper: &Series<'_>, bn: f64) -> Value {
 fn figure(
     focus: &Focus,
     sizes: &Sizes,
-    (series, told): (&[Series<'_>], &[(String, String)]),
+    (series, reported): (&[Series<'_>], &[(String, String)]),
     fits: &[Option<Fit>],
     s: Option<f64>,
     rule: Option<f64>,
@@ -268,7 +269,7 @@ fn figure(
     let mut kinds = Vec::new();
     if let Some(first) = series.first() {
         let paper = focus.paper_rms.then(|| (RMS_PAPER.to_owned(), "RMS as in the paper".to_owned()));
-        let all = told.iter().cloned().chain(paper);
+        let all = reported.iter().cloned().chain(paper);
         kinds.extend(all.enumerate().map(|(i, (name, title))| curve(&title, i, first.points(&name))));
     }
     let several = series.len() > 1;
@@ -300,7 +301,7 @@ fn figure(
     if focus.paper_rms {
         caption += &format!(" The RMS of the paper is (1/N) sqrt(Σe²), in units of {unit} m/s.");
     }
-    if told.iter().any(|(name, _)| name == CREEP) {
+    if reported.iter().any(|(name, _)| name == CREEP) {
         caption += &format!(
             " The creep is the velocity half-way up what is at rest under the exact yield, in units of {unit} m/s."
         );

@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde_json::Value;
 
-use super::converge::Judge;
-use super::{Judgement, Plan, Point, Row, STOPPED, StudyError, page, record};
+use super::converge::Assess;
+use super::{Assessment, Plan, Point, Row, STOPPED, StudyError, page, record};
 use crate::case::{Case, CaseError};
 use crate::model::{Problem, Registry};
 use crate::output::{
@@ -34,8 +34,8 @@ pub trait Observer: Sync {
     fn see(&self, _snapshot: &Snapshot<'_>) {}
 }
 
-/// What follows from the first rows: further points, and how all rows are judged.
-pub type Next = Box<dyn FnOnce(&[Row], &dyn Observer) -> (Vec<Point>, Judge) + Send>;
+/// What follows from the first rows: further points, and how all rows are assessed.
+pub type Next = Box<dyn FnOnce(&[Row], &dyn Observer) -> (Vec<Point>, Assess) + Send>;
 
 /// How a study is conducted; none of it changes a result.
 #[non_exhaustive]
@@ -73,7 +73,7 @@ pub struct Conducted {
     /// the rows, in the order of the plan
     pub rows: Vec<Row>,
     /// what they say
-    pub judgement: Judgement,
+    pub assessment: Assessment,
     /// done; failed if every point failed; stopped
     pub status: Status,
     /// its folder
@@ -94,7 +94,7 @@ struct Loaded {
     sha256: Option<String>,
 }
 
-/// Runs the points of `plan` and those that follow from them, judges them and writes the folder.
+/// Runs the points of `plan` and those that follow from them, assesses them and writes the folder.
 ///
 /// # Errors
 /// [`StudyError::Case`] if the case is refused at every point, [`StudyError::Output`], [`StudyError::Threads`].
@@ -141,19 +141,19 @@ fn carry_out(
     (provenance.overrides, provenance.threads) = (plan.overrides.clone(), threads.current_num_threads());
     let head = record::Head { plan, name, identity, command: &settings.command };
     folder.begin(&head.running(&provenance))?;
-    let (rows, resumed, judge) = threads.install(|| -> Result<_, OutputError> {
+    let (rows, resumed, assess) = threads.install(|| -> Result<_, OutputError> {
         let (mut rows, resumed) = run(plan, &plan.points, loaded, folder, settings)?;
-        let (points, judge) = next(&rows, settings.observer);
+        let (points, assess) = next(&rows, settings.observer);
         let loaded = points.iter().map(|point| load(settings.registry, plan, point)).collect();
         let (more, again) = run(plan, &points, loaded, folder, settings)?;
         rows.extend(more);
-        Ok((rows, resumed + again, judge))
+        Ok((rows, resumed + again, assess))
     })?;
-    let judgement = judge(&rows);
+    let assessment = assess(&rows);
     let status = match () {
         () if rows.iter().any(|row| row.status == Status::Stopped) => Status::Stopped,
-        () if judgement.failure.is_some() && settings.observer.stop() => Status::Stopped,
-        () if judgement.failure.is_some() || rows.iter().all(|row| row.status == Status::Failed) => Status::Failed,
+        () if assessment.failure.is_some() && settings.observer.stop() => Status::Stopped,
+        () if assessment.failure.is_some() || rows.iter().all(|row| row.status == Status::Failed) => Status::Failed,
         () => Status::Done,
     };
     let cost = Cost {
@@ -163,16 +163,16 @@ fn carry_out(
         work_units: rows.iter().map(|row| row.cost.work_units).sum(),
         ..Cost::default()
     };
-    let written = head.complete(status, &rows, &judgement, &cost, &provenance);
-    let page = page::html(&head, &rows, &judgement, &cost, &provenance);
+    let written = head.complete(status, &rows, &assessment, &cost, &provenance);
+    let page = page::html(&head, &rows, &assessment, &cost, &provenance);
     let mut comments: Vec<String> = provenance.lines().into_iter().take(1).collect();
     comments.extend([settings.command.clone(), format!("started {}", provenance.started_utc)]);
-    if let Some(table) = &judgement.parameters {
+    if let Some(table) = &assessment.parameters {
         folder.write_parameters(|to| record::write_numbers(to, table, &comments))?;
     }
-    let table = |to: &mut dyn std::io::Write| record::write_table(to, plan, &rows, &judgement, &comments);
-    let (figures, kept) = folder.finish((status, &written), table, &page, &judgement.figures, settings.png)?;
-    Ok(Conducted { record: written, rows, judgement, status, out, figures, kept, resumed, cost })
+    let table = |to: &mut dyn std::io::Write| record::write_table(to, plan, &rows, &assessment, &comments);
+    let (figures, kept) = folder.finish((status, &written), table, &page, &assessment.figures, settings.png)?;
+    Ok(Conducted { record: written, rows, assessment, status, out, figures, kept, resumed, cost })
 }
 
 fn load(registry: &Registry, plan: &Plan, point: &Point) -> Loaded {

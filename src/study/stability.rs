@@ -9,10 +9,10 @@ use std::collections::BTreeMap;
 use serde_json::json;
 
 use super::chart::time_text;
-use super::converge::{Judge, error_text};
+use super::converge::{Assess, error_text};
 use super::limits::{Found, limits, solved};
-use super::range::{MOST, Varied, number_and_unit, parse};
-use super::{Judgement, Plan, Point, Row, StudyError};
+use super::range::{MAX_POINTS, Varied, number_and_unit, parse};
+use super::{Assessment, Plan, Point, Row, StudyError};
 use crate::model::Registry;
 use crate::result::{Axis, Class, Curve, Figure, Marker, Panel, Scale, Status};
 use crate::units::significant;
@@ -41,11 +41,11 @@ impl Request {
     }
 }
 
-/// The plan of a map of stability, and how to judge it.
+/// The plan of a map of stability, and how to assess it.
 ///
 /// # Errors
 /// [`StudyError::BadOver`] with the argument that cannot be read; [`StudyError::Case`].
-pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), StudyError> {
+pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Assess), StudyError> {
     let bad = |reason: &str| StudyError::BadOver { argument: request.over.join(" --over "), reason: reason.into() };
     let varied: Vec<Varied> = request.over.iter().map(|argument| parse(argument)).collect::<Result<_, _>>()?;
     let (first, second) = match &varied[..] {
@@ -53,7 +53,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
         [first, second] => (first, Some(second)),
         _ => return Err(bad("one key or two")),
     };
-    if first.values.len() * second.map_or(1, |v| v.values.len()) > MOST {
+    if first.values.len() * second.map_or(1, |v| v.values.len()) > MAX_POINTS {
         return Err(bad("the grid is too large"));
     }
     if first.values.iter().any(|v| number_and_unit(v).is_none()) {
@@ -81,7 +81,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Judge), Stu
         repeats: 1,
     };
     let (registry, request) = (registry.clone(), request.clone());
-    Ok((plan, Box::new(move |rows: &[Row]| judge(&registry, &request, &varied, rows))))
+    Ok((plan, Box::new(move |rows: &[Row]| assess(&registry, &request, &varied, rows))))
 }
 
 fn last(key: &str) -> &str {
@@ -101,7 +101,7 @@ fn classify(registry: &Registry, request: &Request, row: &Row) -> Found {
     }
 }
 
-fn judge(registry: &Registry, request: &Request, varied: &[Varied], rows: &[Row]) -> Judgement {
+fn assess(registry: &Registry, request: &Request, varied: &[Varied], rows: &[Row]) -> Assessment {
     let found: Vec<Found> = rows.iter().map(|row| classify(registry, request, row)).collect();
     let keys: Vec<&str> = varied.iter().map(|v| v.key.as_str()).collect();
     let unit = rows.first().and_then(|row| row.point.values.first()).and_then(|v| number_and_unit(v)).map(|p| p.1);
@@ -134,23 +134,23 @@ fn judge(registry: &Registry, request: &Request, varied: &[Varied], rows: &[Row]
         findings.push((class.name().into(), format!("{count} of {} points, {first}{why}", rows.len())));
     }
     let class = |what: &Found| Class::ALL.iter().position(|c| *c == what.class).map(|i| i as f64);
-    let mut judgement = Judgement {
+    let mut assessment = Assessment {
         subtitle: format!("Over {}; an answer holds within {}.", keys.join(" and "), error_text(request.tolerance)),
         measures: vec![
             ("class".into(), found.iter().map(class).collect()),
             ("error".into(), found.iter().map(|what| what.error).collect()),
         ],
         findings,
-        ..Judgement::default()
+        ..Assessment::default()
     };
     let facts = limits.iter().map(|l| {
         json!({ "series": l.series, "holds": l.holds, "fails": l.fails, "class": l.class.name(), "reason": l.reason })
     });
-    judgement.facts.insert("limits".into(), facts.collect());
-    judgement.facts.insert("predicted".into(), json!(request.predicted));
-    judgement.facts.insert("classes".into(), Class::ALL.map(Class::name).to_vec().into());
-    judgement.figures.push(figure(varied, rows, &found));
-    judgement
+    assessment.facts.insert("limits".into(), facts.collect());
+    assessment.facts.insert("predicted".into(), json!(request.predicted));
+    assessment.facts.insert("classes".into(), Class::ALL.map(Class::name).to_vec().into());
+    assessment.figures.push(figure(varied, rows, &found));
+    assessment
 }
 
 impl Request {

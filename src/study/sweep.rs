@@ -2,16 +2,16 @@
 
 use serde_json::json;
 
-use super::converge::{Judge, curve};
-use super::range::{MOST, Varied, number_and_unit, parse};
-use super::{Judgement, Plan, Point, Row, StudyError};
+use super::converge::{Assess, curve};
+use super::range::{MAX_POINTS, Varied, number_and_unit, parse};
+use super::{Assessment, Plan, Point, Row, StudyError};
 use crate::result::Status;
 use crate::result::quantity::{self, Quantity};
 use crate::result::{Axis, Curve, Figure, Panel, Scale};
 use crate::units::{parse_quantity, readable, readable_unit, significant};
 
 /// What a sweep shows: the first of these that any point reports.
-const SHOWN: &[&Quantity] = &[
+const QUANTITIES: &[&Quantity] = &[
     &quantity::TRANSPORT_RATE,
     &quantity::DISCHARGE,
     &quantity::SURFACE_VELOCITY,
@@ -22,15 +22,15 @@ const SHOWN: &[&Quantity] = &[
 /// From this ratio of largest to smallest on, an axis is logarithmic.
 const WIDE: f64 = 100.0;
 
-/// The plan of a sweep of `case` over the grid of all `--over` arguments, the last one varying fastest, and how to judge it.
+/// The plan of a sweep of `case` over the grid of all `--over` arguments, the last one varying fastest, and how to assess it.
 ///
 /// # Errors
 /// [`StudyError::BadOver`] with the argument that cannot be read.
-pub fn plan(case: &str, overrides: &[String], over: &[String]) -> Result<(Plan, Judge), StudyError> {
+pub fn plan(case: &str, overrides: &[String], over: &[String]) -> Result<(Plan, Assess), StudyError> {
     let varied: Vec<Varied> = over.iter().map(|argument| parse(argument)).collect::<Result<_, _>>()?;
     let bad = |reason: String| StudyError::BadOver { argument: over.join(" --over "), reason };
-    let count = varied.iter().try_fold(1_usize, |n, v| n.checked_mul(v.values.len())).filter(|n| *n <= MOST);
-    let count = count.ok_or_else(|| bad(format!("the grid has more than {MOST} points")))?;
+    let count = varied.iter().try_fold(1_usize, |n, v| n.checked_mul(v.values.len())).filter(|n| *n <= MAX_POINTS);
+    let count = count.ok_or_else(|| bad(format!("the grid has more than {MAX_POINTS} points")))?;
     if let Some((i, v)) = varied.iter().enumerate().find(|(i, v)| varied[..*i].iter().any(|w| w.key == v.key)) {
         return Err(bad(format!("argument {} varies {} again", i + 1, v.key)));
     }
@@ -45,7 +45,7 @@ pub fn plan(case: &str, overrides: &[String], over: &[String]) -> Result<(Plan, 
         points,
         repeats: 1,
     };
-    Ok((plan, Box::new(move |rows: &[Row]| judge(&varied, axis, rows))))
+    Ok((plan, Box::new(move |rows: &[Row]| assess(&varied, axis, rows))))
 }
 
 /// Point `index` of the grid. Its series is named by what is not on the horizontal axis.
@@ -66,13 +66,13 @@ fn point(varied: &[Varied], axis: Option<usize>, mut index: usize) -> Point {
     }
 }
 
-fn judge(varied: &[Varied], axis: Option<usize>, rows: &[Row]) -> Judgement {
-    let shown = SHOWN.iter().copied().find(|q| rows.iter().any(|row| row.result(q.name).is_some()));
+fn assess(varied: &[Varied], axis: Option<usize>, rows: &[Row]) -> Assessment {
+    let reported = QUANTITIES.iter().copied().find(|q| rows.iter().any(|row| row.result(q.name).is_some()));
     let keys: Vec<&str> = varied.iter().map(|v| v.key.as_str()).collect();
-    let mut judgement = Judgement { subtitle: format!("Over {}.", keys.join(" and ")), ..Judgement::default() };
-    let Some(shown) = shown else { return judgement };
+    let mut assessment = Assessment { subtitle: format!("Over {}.", keys.join(" and ")), ..Assessment::default() };
+    let Some(reported) = reported else { return assessment };
     let known = rows.iter().filter(|row| row.status == Status::Done);
-    let known: Vec<(f64, &Row)> = known.filter_map(|row| Some((row.result(shown.name)?, row))).collect();
+    let known: Vec<(f64, &Row)> = known.filter_map(|row| Some((row.result(reported.name)?, row))).collect();
     let ends = [known.iter().min_by(|a, b| a.0.total_cmp(&b.0)), known.iter().max_by(|a, b| a.0.total_cmp(&b.0))];
     for (label, end) in ["smallest", "largest"].into_iter().zip(ends) {
         let Some((value, row)) = end else { continue };
@@ -80,20 +80,20 @@ fn judge(varied: &[Varied], axis: Option<usize>, rows: &[Row]) -> Judgement {
         let shields = row.result(quantity::SHIELDS.name).map(|x| format!(" (θ = {})", significant(x, 3)));
         let text = format!(
             "{} {} at {}{}",
-            shown.title,
-            readable(*value, shown.unit),
+            reported.title,
+            readable(*value, reported.unit),
             at.join(", "),
             shields.unwrap_or_default()
         );
-        judgement.findings.push((label.into(), text));
-        judgement
+        assessment.findings.push((label.into(), text));
+        assessment
             .facts
-            .insert(label.into(), json!({ "quantity": shown.name, "value": value, "values": row.point.values }));
+            .insert(label.into(), json!({ "quantity": reported.name, "value": value, "values": row.point.values }));
     }
-    judgement.figures.extend(figure(varied, axis, rows, shown));
-    judgement.figures.extend(super::sheet::figures(rows));
-    super::coupled::judge(&keys, rows, &mut judgement);
-    judgement
+    assessment.figures.extend(figure(varied, axis, rows, reported));
+    assessment.figures.extend(super::sheet::figures(rows));
+    super::coupled::assess(&keys, rows, &mut assessment);
+    assessment
 }
 
 /// A value on the horizontal axis: as typed where all have one unit, else in SI.
@@ -107,14 +107,15 @@ fn positions(values: &[String]) -> Option<(Vec<f64>, String)> {
     Some((si.collect::<Option<_>>()?, "SI".into()))
 }
 
-fn figure(varied: &[Varied], axis: Option<usize>, rows: &[Row], shown: &'static Quantity) -> Option<Figure> {
+fn figure(varied: &[Varied], axis: Option<usize>, rows: &[Row], reported: &'static Quantity) -> Option<Figure> {
     let axis = axis?;
     let key = varied.get(axis)?;
     let (x, unit) = positions(&key.values)?;
     let place = |row: &Row| x.get(key.values.iter().position(|v| row.point.values.get(axis) == Some(v))?).copied();
     let value = |row: &Row, name: &str| row.result(name).filter(|_| row.status == Status::Done);
     let of = |name: &str| rows.iter().filter_map(|row| value(row, name)).collect::<Vec<f64>>();
-    let (factor, y_unit) = readable_unit(of(shown.name).into_iter().fold(0.0, |m, x| f64::max(m, x.abs())), shown.unit);
+    let (factor, y_unit) =
+        readable_unit(of(reported.name).into_iter().fold(0.0, |m, x| f64::max(m, x.abs())), reported.unit);
     let mut series: Vec<&str> = Vec::new();
     for row in rows {
         if !series.contains(&row.point.series.as_str()) {
@@ -124,7 +125,7 @@ fn figure(varied: &[Varied], axis: Option<usize>, rows: &[Row], shown: &'static 
     let curves = |x: &dyn Fn(&Row) -> Option<f64>, named: bool| -> Vec<Curve> {
         let one = |(i, name): (usize, &&str)| {
             let of = rows.iter().filter(|row| row.point.series == **name);
-            let points = of.map(|row| (x(row).unwrap_or(f64::NAN), value(row, shown.name).map(|y| y * factor)));
+            let points = of.map(|row| (x(row).unwrap_or(f64::NAN), value(row, reported.name).map(|y| y * factor)));
             curve(if named { name } else { "" }, i, points)
         };
         series.iter().enumerate().map(one).collect()
@@ -143,8 +144,8 @@ fn figure(varied: &[Varied], axis: Option<usize>, rows: &[Row], shown: &'static 
     };
     Some(Figure {
         stem: "sweep".into(),
-        caption: format!("{} over {against}.", capitalised(shown.title)),
-        y: scaled(shown.title, y_unit, &of(shown.name), false),
+        caption: format!("{} over {against}.", capitalised(reported.title)),
+        y: scaled(reported.title, y_unit, &of(reported.name), false),
         panels,
         levels: Vec::new(),
         tint_below: None,

@@ -1,6 +1,6 @@
 //! Re-runs what the cases claim: each `[[check]]` row of each case, as one table.
 
-pub mod scenes;
+pub mod advice;
 pub mod table;
 
 use std::fmt::Write;
@@ -27,8 +27,8 @@ pub enum Verdict {
     Green,
     /// outside it
     Red,
-    /// a claim that is shown, not judged
-    Shown,
+    /// a claim that is reported, not assessed
+    Reported,
 }
 
 impl Verdict {
@@ -38,7 +38,7 @@ impl Verdict {
         match self {
             Self::Green => "pass",
             Self::Red => "FAIL",
-            Self::Shown => "shown",
+            Self::Reported => "shown",
         }
     }
 }
@@ -125,12 +125,12 @@ fn limit_row(registry: &Registry, path: &str, case: &str, limit: &Limit) -> Resu
         }
         Along::Ends(found) => Ok(found.holds),
     };
-    Ok(judged(case, &claim(limit), found))
+    Ok(assessed(case, &claim(limit), found))
 }
 
 /// A limit that is not found as it is claimed is red, whatever its kind.
 fn red(case: &str, limit: &Limit, reason: &str) -> Row {
-    Row { verdict: Verdict::Red, ..judged(case, &claim(limit), Err(reason.into())) }
+    Row { verdict: Verdict::Red, ..assessed(case, &claim(limit), Err(reason.into())) }
 }
 
 /// What a limit claims, as a row.
@@ -152,16 +152,16 @@ fn row(case: &str, check: &Check, outcome: &Result<Outcome, Failure>) -> Row {
         Err(failure) => Err(failure.to_string()),
         Ok(outcome) => find(check, outcome).ok_or_else(|| "not reported".to_owned()),
     };
-    judged(case, check, found)
+    assessed(case, check, found)
 }
 
-fn judged(case: &str, check: &Check, found: Result<f64, String>) -> Row {
+fn assessed(case: &str, check: &Check, found: Result<f64, String>) -> Row {
     let mut row = Row {
         case: case.into(),
         quantity: check.quantity.clone(),
         check: check.clone(),
         found,
-        verdict: Verdict::Shown,
+        verdict: Verdict::Reported,
     };
     if check.kind != CheckKind::Finding {
         let inside = row.deviation().is_some_and(|deviation| deviation <= check.tolerance);
@@ -208,11 +208,12 @@ pub fn figure(rows: &[Row]) -> Figure {
         of(CheckKind::Verification, "verification", 1, Marker::Circle),
         of(CheckKind::Validation, "validation", 2, Marker::Square),
         of(CheckKind::Regression, "regression", 3, Marker::Triangle),
-        of(CheckKind::Finding, "finding: shown, not judged", 4, Marker::Cross),
+        of(CheckKind::Finding, "finding: reported, not assessed", 4, Marker::Cross),
     ];
     Figure {
         stem: FIGURE.into(),
-        caption: "Deviation of every checked number against its tolerance: what is judged lies below the line.".into(),
+        caption: "Deviation of every checked number against its tolerance: what is assessed lies below the line."
+            .into(),
         y: Axis::log("deviation from the expected value", "1"),
         panels: vec![Panel { x: Axis::log("tolerance", "1"), curves }],
         levels: Vec::new(),

@@ -1,30 +1,30 @@
 //! The scenes on which advice is checked.
 
-use super::scenes::{Rival, Scene, Truth};
+use super::advice::{AdviceTest, Candidate, Reference, Run};
 
 const RATE: &str = "transport_rate_dimensionless";
 const GRAINS: &str = "grains of this engine, 10 d by 10 d (docs/kinetic.md)";
 
-const fn rival(name: &'static str, case: &'static str, set: &'static [&'static str]) -> Rival {
-    Rival { name, case, set }
+const fn candidate(name: &'static str, case: &'static str, set: &'static [&'static str]) -> Candidate {
+    Candidate { name, case, set }
 }
 
 const KINETIC: &str = "two-fluid";
 const SHEET: &str = "sheet-flow";
 
 /// All of them.
-pub const SCENES: &[Scene] = &[
-    Scene {
+pub const ADVICE_TESTS: &[AdviceTest] = &[
+    AdviceTest {
         name: "laminar bed of 0.5 H, grains of H/30",
         case: "laminar_1d_ouriemi",
         set: &[],
         tolerance: 0.01,
         quantity: RATE,
-        truth: Truth::Exact("exact_1d_ouriemi", &[]),
+        reference: Reference::Exact("exact_1d_ouriemi", &[]),
         source: "closed form with slip, evaluated independently with 40 digits",
-        rivals: &[
-            rival("smoothed yield", "laminar_1d_ouriemi", &[]),
-            rival(
+        candidates: &[
+            candidate("smoothed yield", "laminar_1d_ouriemi", &[]),
+            candidate(
                 "exact yield on a mesh",
                 "laminar_1d_ouriemi",
                 &["regularisation.law=none", "regularisation.lambda_scaled="],
@@ -32,50 +32,50 @@ pub const SCENES: &[Scene] = &[
         ],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "the same with grains of H/5",
         case: "laminar_1d_ouriemi",
         set: &["grains.diameter=6 mm"],
         tolerance: 0.01,
         quantity: RATE,
-        truth: Truth::Exact("exact_1d_ouriemi", &["grains.diameter=6 mm"]),
+        reference: Reference::Exact("exact_1d_ouriemi", &["grains.diameter=6 mm"]),
         source: "closed form with slip",
-        rivals: &[rival("smoothed yield", "laminar_1d_ouriemi", &["grains.diameter=6 mm"])],
+        candidates: &[candidate("smoothed yield", "laminar_1d_ouriemi", &["grains.diameter=6 mm"])],
         kept: Some((
             "slip between the phases",
-            rival("one velocity", "exact_1d_ouriemi_mixed", &["grains.diameter=6 mm"]),
+            candidate("one velocity", "exact_1d_ouriemi_mixed", &["grains.diameter=6 mm"]),
         )),
     },
-    Scene {
+    AdviceTest {
         name: "laminar bed of the experiment, constant friction",
         case: "laminar_1d_aussillous",
         set: &[],
         tolerance: 0.01,
         quantity: RATE,
-        truth: Truth::Exact("exact_1d_aussillous", &[]),
+        reference: Reference::Exact("exact_1d_aussillous", &[]),
         source: "closed form, evaluated independently with 40 digits",
-        rivals: &[rival("exact yield on a mesh", "laminar_1d_aussillous", &[])],
+        candidates: &[candidate("exact yield on a mesh", "laminar_1d_aussillous", &[])],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "laminar bed, friction that rises with the shear rate",
         case: "laminar_1d_muiv",
         set: &[],
         tolerance: 0.02,
         quantity: RATE,
-        truth: Truth::Exact("laminar_1d_muiv", &["grid.cells=6400"]),
+        reference: Reference::Exact("laminar_1d_muiv", &["grid.cells=6400"]),
         source: "the same equations on 6400 cells",
-        rivals: &[],
+        candidates: &[],
         kept: Some((
             "rise of the friction with the shear rate",
-            rival(
+            candidate(
                 "constant friction",
                 "laminar_1d_muiv",
                 &["closures.friction={ law = \"coulomb\", mu_s = 0.32 }", "closures.dilatancy="],
             ),
         )),
     },
-    Scene {
+    AdviceTest {
         name: "laminar bed of the experiment, run A9",
         case: "laminar_1d_muiv",
         set: &[
@@ -91,9 +91,9 @@ pub const SCENES: &[Scene] = &[
         ],
         tolerance: 0.3,
         quantity: "transport_rate_m2_s",
-        truth: Truth::Known(2.500e-06, 1.02e-06, None),
+        reference: Reference::Known { value: 2.500e-06, stderr: 1.02e-06, run: None },
         source: "measured: Aussillous et al. (2013), run A9, in Biegert et al. (2017), Table 5",
-        rivals: &[rival(
+        candidates: &[candidate(
             "solid fraction that does not change",
             "laminar_1d_muiv",
             &[
@@ -109,7 +109,7 @@ pub const SCENES: &[Scene] = &[
         )],
         kept: Some((
             "rise of the friction with the shear rate",
-            rival(
+            candidate(
                 "constant friction",
                 "laminar_1d_muiv",
                 &[
@@ -126,7 +126,7 @@ pub const SCENES: &[Scene] = &[
             ),
         )),
     },
-    Scene {
+    AdviceTest {
         name: "laminar bed of the experiment, run A10",
         case: "laminar_1d_muiv",
         set: &[
@@ -142,9 +142,9 @@ pub const SCENES: &[Scene] = &[
         ],
         tolerance: 0.3,
         quantity: "transport_rate_m2_s",
-        truth: Truth::Known(2.444e-06, 6.49e-07, None),
+        reference: Reference::Known { value: 2.444e-06, stderr: 6.49e-07, run: None },
         source: "measured: Aussillous et al. (2013), run A10, in Biegert et al. (2017), Table 5",
-        rivals: &[rival(
+        candidates: &[candidate(
             "solid fraction that does not change",
             "laminar_1d_muiv",
             &[
@@ -160,7 +160,7 @@ pub const SCENES: &[Scene] = &[
         )],
         kept: Some((
             "rise of the friction with the shear rate",
-            rival(
+            candidate(
                 "constant friction",
                 "laminar_1d_muiv",
                 &[
@@ -177,152 +177,167 @@ pub const SCENES: &[Scene] = &[
             ),
         )),
     },
-    Scene {
+    AdviceTest {
         name: "cylinders in a duct, run 91",
         case: "sheet_1d_sumer91",
         set: &[],
         tolerance: 0.1,
         quantity: RATE,
-        truth: Truth::Exact("sheet_1d_sumer91", &["grid.cells=4800"]),
+        reference: Reference::Exact("sheet_1d_sumer91", &["grid.cells=4800"]),
         source: "the same equations on 4800 cells",
-        rivals: &[rival(
+        candidates: &[candidate(
             "pseudo-time iteration",
             "sheet_1d_sumer91",
             &["model.method=iteration", "regularisation={ law = \"simple\", lambda = 1e-6 }", "grid.cells=75"],
         )],
         kept: Some((
             "suspension",
-            rival("no suspension", "sheet_1d_sumer91", &["closures.suspension={ law = \"none\" }"]),
+            candidate("no suspension", "sheet_1d_sumer91", &["closures.suspension={ law = \"none\" }"]),
         )),
     },
-    Scene {
+    AdviceTest {
         name: "sand of type B at a Shields number of 1.5",
         case: "sheet_1d_type_b",
         set: &[],
         tolerance: 0.1,
         quantity: RATE,
-        truth: Truth::Exact("sheet_1d_type_b", &["grid.cells=4800"]),
+        reference: Reference::Exact("sheet_1d_type_b", &["grid.cells=4800"]),
         source: "the same equations on 4800 cells",
-        rivals: &[],
+        candidates: &[],
         kept: Some((
             "largest of three rearrangement times",
-            rival("free fall alone", "sheet_1d_type_b", &["closures.rearrangement={ law = \"free-fall\" }"]),
+            candidate("free fall alone", "sheet_1d_type_b", &["closures.rearrangement={ law = \"free-fall\" }"]),
         )),
     },
-    Scene {
+    AdviceTest {
         name: "sand of type B at a Shields number of 0.6",
         case: "sheet_1d_type_b",
         set: &["flow.shields=0.6"],
         tolerance: 0.1,
         quantity: RATE,
-        truth: Truth::Exact("sheet_1d_type_b", &["flow.shields=0.6", "grid.cells=4800"]),
+        reference: Reference::Exact("sheet_1d_type_b", &["flow.shields=0.6", "grid.cells=4800"]),
         source: "the same equations on 4800 cells",
-        rivals: &[],
+        candidates: &[],
         kept: Some((
             "suspension",
-            rival("no suspension", "sheet_1d_type_b", &["flow.shields=0.6", "closures.suspension={ law = \"none\" }"]),
+            candidate(
+                "no suspension",
+                "sheet_1d_type_b",
+                &["flow.shields=0.6", "closures.suspension={ law = \"none\" }"],
+            ),
         )),
     },
-    Scene {
+    AdviceTest {
         name: "spheres at a Shields number of 0.2, roughly",
         case: "coupled_3d_theta02_quick",
         set: &[],
         tolerance: 0.3,
         quantity: RATE,
-        truth: Truth::Known(0.2531, 0.0023, Some((0.2531, 1200.0))),
+        reference: Reference::Known {
+            value: 0.2531,
+            stderr: 0.0023,
+            run: Some(Run { value: 0.2531, seconds: 1200.0 }),
+        },
         source: GRAINS,
-        rivals: &[rival(KINETIC, "kinetic_1d_theta02", &[])],
+        candidates: &[candidate(KINETIC, "kinetic_1d_theta02", &[])],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "spheres at a Shields number of 0.2",
         case: "coupled_3d_theta02_quick",
         set: &[],
         tolerance: 0.05,
         quantity: RATE,
-        truth: Truth::Known(0.2531, 0.0023, Some((0.2531, 1200.0))),
+        reference: Reference::Known {
+            value: 0.2531,
+            stderr: 0.0023,
+            run: Some(Run { value: 0.2531, seconds: 1200.0 }),
+        },
         source: GRAINS,
-        rivals: &[rival(KINETIC, "kinetic_1d_theta02", &[]), rival(SHEET, "sheet_1d_theta06", &["flow.height=111 mm"])],
+        candidates: &[
+            candidate(KINETIC, "kinetic_1d_theta02", &[]),
+            candidate(SHEET, "sheet_1d_theta06", &["flow.height=111 mm"]),
+        ],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "spheres at a Shields number of 0.4, to 15 %",
         case: "coupled_3d_theta04_quick",
         set: &[],
         tolerance: 0.15,
         quantity: RATE,
-        truth: Truth::Known(1.028, 0.014, Some((1.028, 300.0))),
+        reference: Reference::Known { value: 1.028, stderr: 0.014, run: Some(Run { value: 1.028, seconds: 300.0 }) },
         source: GRAINS,
-        rivals: &[
-            rival("two-fluid, classical closures", "kinetic_1d_theta04", &["closures.granular.law=garzo-dufty"]),
-            rival(SHEET, "sheet_1d_theta06", &["flow.height=147 mm"]),
+        candidates: &[
+            candidate("two-fluid, classical closures", "kinetic_1d_theta04", &["closures.granular.law=garzo-dufty"]),
+            candidate(SHEET, "sheet_1d_theta06", &["flow.height=147 mm"]),
         ],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "spheres at a Shields number of 0.6, roughly",
         case: "kinetic_1d_theta06",
         set: &[],
         tolerance: 0.3,
         quantity: RATE,
-        truth: Truth::Known(2.38, 0.03, Some((2.38, 300.0))),
+        reference: Reference::Known { value: 2.38, stderr: 0.03, run: Some(Run { value: 2.38, seconds: 300.0 }) },
         source: GRAINS,
-        rivals: &[rival(KINETIC, "kinetic_1d_theta06", &[])],
+        candidates: &[candidate(KINETIC, "kinetic_1d_theta06", &[])],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "spheres at a Shields number of 0.6",
         case: "sheet_1d_theta06",
         set: &[],
         tolerance: 0.05,
         quantity: RATE,
-        truth: Truth::Known(2.38, 0.03, Some((2.38, 300.0))),
+        reference: Reference::Known { value: 2.38, stderr: 0.03, run: Some(Run { value: 2.38, seconds: 300.0 }) },
         source: GRAINS,
-        rivals: &[rival(KINETIC, "kinetic_1d_theta06", &[]), rival(SHEET, "sheet_1d_theta06", &[])],
+        candidates: &[candidate(KINETIC, "kinetic_1d_theta06", &[]), candidate(SHEET, "sheet_1d_theta06", &[])],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "spheres at a Shields number of 0.8, to 15 %",
         case: "coupled_3d_theta08_quick",
         set: &[],
         tolerance: 0.15,
         quantity: RATE,
-        truth: Truth::Known(4.320, 0.024, Some((4.320, 300.0))),
+        reference: Reference::Known { value: 4.320, stderr: 0.024, run: Some(Run { value: 4.320, seconds: 300.0 }) },
         source: GRAINS,
-        rivals: &[rival(SHEET, "sheet_1d_theta06", &["flow.height=219 mm"])],
+        candidates: &[candidate(SHEET, "sheet_1d_theta06", &["flow.height=219 mm"])],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "spheres at a Shields number of 1, roughly",
         case: "coupled_3d_theta10_quick",
         set: &[],
         tolerance: 0.3,
         quantity: RATE,
-        truth: Truth::Known(6.822, 0.023, Some((6.822, 300.0))),
+        reference: Reference::Known { value: 6.822, stderr: 0.023, run: Some(Run { value: 6.822, seconds: 300.0 }) },
         source: GRAINS,
-        rivals: &[rival(KINETIC, "kinetic_1d_theta10", &[])],
+        candidates: &[candidate(KINETIC, "kinetic_1d_theta10", &[])],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "spheres on a slope of 0.1 under 3 d of water, roughly",
         case: "coupled_3d_shields_quick",
         set: &[],
         tolerance: 0.3,
         quantity: RATE,
-        truth: Truth::Known(0.321, 0.0061, Some((0.321, 60.0))),
+        reference: Reference::Known { value: 0.321, stderr: 0.0061, run: Some(Run { value: 0.321, seconds: 60.0 }) },
         source: "grains of this engine, 10 d by 10 d, 12 s",
-        rivals: &[rival(SHEET, "sheet_1d_theta06", &["flow.slope=0.0995", "flow.height=93 mm"])],
+        candidates: &[candidate(SHEET, "sheet_1d_theta06", &["flow.slope=0.0995", "flow.height=93 mm"])],
         kept: None,
     },
-    Scene {
+    AdviceTest {
         name: "narrow flume, beads",
         case: "coupled_2d_exp20",
         set: &[],
         tolerance: 0.3,
         quantity: "transport_rate_beads_1_s",
-        truth: Truth::Known(19.74, 0.0, Some((24.79, 840.0))),
+        reference: Reference::Known { value: 19.74, stderr: 0.0, run: Some(Run { value: 24.79, seconds: 840.0 }) },
         source: "measured: experiment of Frey (2014), in Maurin et al. (2015), Table III; grains: docs/coupled.md",
-        rivals: &[],
+        candidates: &[],
         kept: None,
     },
 ];

@@ -25,7 +25,7 @@ fn the_least_model_follows_the_scene_and_the_tolerance() {
 }
 
 #[test]
-fn terms_are_judged_by_what_dropping_them_costs() {
+fn terms_are_assessed_by_what_dropping_them_costs() {
     let scratch = Scratch::new();
     let term = |case: &str, set: &str, what: &str| {
         let found = scratch.bedload(["advise", case, "--set", set, "--json"]).exits(0).json();
@@ -56,7 +56,7 @@ fn the_case_that_it_writes_runs_and_is_not_overwritten() {
 }
 
 #[test]
-fn what_has_no_choice_is_said() {
+fn what_has_no_choice_is_reported() {
     let scratch = Scratch::new();
     let found = scratch.bedload(["advise", "section_2d_square", "--json"]).exits(2).json();
     assert_eq!(found["error"]["code"], "one-model", "{found}");

@@ -43,13 +43,13 @@ const OF_A_MODEL: &[&str] =
 
 /// A model that takes something of another, and what.
 const BETWEEN_MODELS: &[(&str, &str, &str)] = &[
-    ("models::laminar", "models::exact", "its bed, its closed form, how results are said"),
+    ("models::laminar", "models::exact", "its bed, its closed form, how results are reported"),
     ("models::bingham", "models::exact", "its plane and its closed form"),
     ("models::bingham", "models::laminar", "the mesh and the elements of a plane flow"),
     ("models::section", "models::exact", "the bed of a duct, which is that of a plane flow"),
-    ("models::sheet_flow", "models::exact", "how closures out of range are said"),
-    ("models::two_fluid", "models::exact", "how results and closures out of range are said"),
-    ("models::shear_cell", "models::exact", "how results are said"),
+    ("models::sheet_flow", "models::exact", "how closures out of range are reported"),
+    ("models::two_fluid", "models::exact", "how results and closures out of range are reported"),
+    ("models::shear_cell", "models::exact", "how results are reported"),
     ("models::shear_cell", "models::two_fluid", "the grains that collide"),
 ];
 
@@ -243,7 +243,7 @@ fn modules_know_what_the_list_says() {
 }
 
 #[test]
-fn a_wrong_edge_is_seen() {
+fn a_wrong_edge_is_found() {
     let of = |own, depth, text| edges(own, depth, text).join(" ");
     assert_eq!(of("case", 2, "use crate::units; use crate::case::Fault;"), "units");
     assert_eq!(of("study", 2, "use crate::models::laminar::bed::Bed;"), "models::laminar");

@@ -1,4 +1,4 @@
-//! `calibrate`: what was put in comes out again, as well known as is said, and what the data do not tell is said.
+//! `calibrate`: what was put in comes out again, with the errors that are reported, and what the data do not determine is reported.
 
 use std::fmt::Write;
 
@@ -26,7 +26,7 @@ impl Observer for Silent {
     fn done(&self, _: usize, _: usize) {}
 }
 
-/// A case that is the truth, what is measured of it, and what is fitted, with the factor by which it is off at the start.
+/// A case whose parameters are known, what is measured of it, and what is fitted, with the factor by which it is off at the start.
 struct Twin {
     case: &'static str,
     columns: &'static [&'static q::Quantity],
@@ -44,20 +44,20 @@ impl Twin {
         Request::new(self.case, "twin.csv", self.fit.iter().map(|(key, _)| (*key).into()).collect())
     }
 
-    /// The parameters of the truth.
-    fn truth(&self) -> Parameters {
+    /// The exact parameters.
+    fn exact(&self) -> Parameters {
         Parameters::of(&crate::support::REGISTRY, &self.request()).unwrap()
     }
 
     fn profile(&self) -> Profile {
-        let truth = self.truth();
-        truth.profile(&truth.start.iter().map(|p| p.ln()).collect::<Vec<_>>(), &mut Quiet).unwrap()
+        let exact = self.exact();
+        exact.profile(&exact.start.iter().map(|p| p.ln()).collect::<Vec<_>>(), &mut Quiet).unwrap()
     }
 
-    /// The truth at 40 levels from the lowest grain that moves to the top, with noise of the stream `seed`.
-    fn measured(&self, truth: &Profile, seed: u64) -> String {
-        let (z, u) = (truth.axis(), truth.get(self.columns[0]).unwrap());
-        let largest = |of: &q::Quantity| truth.get(of).unwrap().iter().flatten().fold(0.0_f64, |m, x| m.max(*x));
+    /// The exact profile at 40 levels from the lowest grain that moves to the top, with noise of the stream `seed`.
+    fn measured(&self, exact: &Profile, seed: u64) -> String {
+        let (z, u) = (exact.axis(), exact.get(self.columns[0]).unwrap());
+        let largest = |of: &q::Quantity| exact.get(of).unwrap().iter().flatten().fold(0.0_f64, |m, x| m.max(*x));
         let top = z[z.len() - 1];
         let low = z
             .iter()
@@ -72,37 +72,37 @@ impl Twin {
             write!(text, "\n{level}").unwrap();
             for (k, column) in self.columns.iter().enumerate() {
                 let sigma = NOISE * largest(column);
-                write!(text, ",{},{sigma}", truth.at(column, level).unwrap() + sigma * noise[k]).unwrap();
+                write!(text, ",{},{sigma}", exact.at(column, level).unwrap() + sigma * noise[k]).unwrap();
             }
         }
         text
     }
 
     /// The fit to one measurement, from a start that is off.
-    fn fitted(&self, truth: &Profile, seed: u64) -> (Parameters, Fit<ErrorReport>, Option<Statistics>) {
-        let mut parameters = self.truth();
+    fn fitted(&self, exact: &Profile, seed: u64) -> (Parameters, Fit<ErrorReport>, Option<Statistics>) {
+        let mut parameters = self.exact();
         for (start, (_, factor)) in parameters.start.iter_mut().zip(self.fit) {
             *start *= factor;
         }
-        let data = data::parse(&self.measured(truth, seed), "twin", "twin.csv").unwrap();
-        let target = Target::of(&data, truth, &[], &[], self.fit.len()).unwrap();
+        let data = data::parse(&self.measured(exact, seed), "twin", "twin.csv").unwrap();
+        let target = Target::of(&data, exact, &[], &[], self.fit.len()).unwrap();
         let fit = parameters.fit(&target, &Silent).unwrap();
-        let told = fit.jacobian.as_ref().and_then(|j| Statistics::of(&fit.residuals, j, &fit.held, true));
+        let told = fit.jacobian.as_ref().and_then(|j| Statistics::of(&fit.residuals, j, &fit.at_bound, true));
         (parameters, fit, told)
     }
 
     fn repeat(&self, repeats: u64) -> Coverage {
-        let (profile, truth) = (self.profile(), self.truth().start);
-        let n = truth.len();
+        let (profile, exact) = (self.profile(), self.exact().start);
+        let n = exact.len();
         let mut all = Coverage { within: vec![0; n], pull: vec![0.0; n], error: vec![0.0; n], ..Coverage::default() };
         for seed in 0..repeats {
             let (_, fit, told) = self.fitted(&profile, seed);
             let Some(told) = told.filter(|_| fit.ended.is_ok()) else { continue };
             all.ended += 1;
             let mut together = true;
-            for (i, truth) in truth.iter().enumerate() {
+            for (i, exact) in exact.iter().enumerate() {
                 let value = fit.x[i].exp();
-                let pull = (value - truth) / (value * told.errors[i]);
+                let pull = (value - exact) / (value * told.errors[i]);
                 let near = pull.abs() <= 2.0;
                 all.pull[i] += pull * pull / repeats as f64;
                 all.within[i] += usize::from(near);
@@ -118,7 +118,7 @@ impl Twin {
     }
 }
 
-/// How often the truth is within two standard errors.
+/// How often the exact parameter is within two standard errors.
 #[derive(Debug, Default)]
 struct Coverage {
     /// fits with a minimum
@@ -183,7 +183,7 @@ fn a_hundred_twins() {
 }
 
 #[test]
-fn the_truth_is_within_two_standard_errors_and_they_are_not_too_large() {
+fn the_exact_parameters_are_within_two_standard_errors_that_are_not_too_large() {
     for twin in [&TWINS[2], &TWINS[4]] {
         let found = twin.repeat(25);
         assert!(found.ended == 25 && found.within.iter().all(|&n| n >= 21), "{found:?}");
@@ -222,10 +222,10 @@ fn a_fit_is_a_study_of_the_case_before_and_after() {
     let scratch = measured(&SHEET, 3);
     let found = calibrate(&scratch, 0, RUN, &format!("{OFF} --fit mu_2=0.55:1.5 --fit i_0 --out c --png"));
     assert_eq!((&found["status"], &found["facts"]["fit"]["converged"]), (&"done".into(), &true.into()));
-    for (i, truth) in [0.7, 0.3].into_iter().enumerate() {
-        assert!((number(&found, i, "value") - truth).abs() < 2.5 * number(&found, i, "stderr"), "{found}");
+    for (i, exact) in [0.7, 0.3].into_iter().enumerate() {
+        assert!((number(&found, i, "value") - exact).abs() < 2.5 * number(&found, i, "stderr"), "{found}");
         let (low, high) = (number(&found, i, "low"), number(&found, i, "high"));
-        assert!(low < truth && truth < high, "{found}");
+        assert!(low < exact && exact < high, "{found}");
         assert!(((high - low) / (2.0 * 1.96 * number(&found, i, "stderr")) - 1.0).abs() < 0.02, "{found}");
     }
     assert_eq!((number(&found, 0, "start"), number(&found, 0, "upper")), (0.8, 1.5));
@@ -250,7 +250,7 @@ fn a_fit_is_a_study_of_the_case_before_and_after() {
 }
 
 #[test]
-fn what_the_data_do_not_tell_is_said() {
+fn what_the_data_do_not_determine_is_reported() {
     let scratch = measured(&FILM, 1);
     let words = "--to twin.csv --fit mu_2 --fit i_0 --set closures.friction.mu_2=0.7";
     let said = scratch.bedload(format!("calibrate exact_1d_bagnold {words} --out a").split(' ')).exits(0).out;
@@ -259,7 +259,7 @@ fn what_the_data_do_not_tell_is_said() {
     let found = calibrate(&scratch, 0, "exact_1d_bagnold", &format!("{words} --out b"));
     let pairs = &found["facts"]["fit"]["not_told_apart"];
     assert!(pairs[0][2].as_f64().unwrap() > 0.999, "{pairs}");
-    // One of them alone is told.
+    // One of them alone is determined.
     let found = calibrate(&scratch, 0, "exact_1d_bagnold", "--to twin.csv --fit i_0 --out c");
     assert!((number(&found, 0, "value") - 0.279).abs() < 2.0 * number(&found, 0, "stderr"), "{found}");
     let stated = number(&found, 0, "stderr");
@@ -275,7 +275,7 @@ fn what_the_data_do_not_tell_is_said() {
 }
 
 #[test]
-fn a_model_that_is_wrong_is_said_to_be() {
+fn a_wrong_model_is_reported() {
     let scratch = measured(&SHEET, 5);
     // The data have κ = 0.35; with κ = 0.5 no friction of the grains makes up for it.
     let arguments = "--to twin.csv --fit mu_2 --set closures.mixing_length.kappa=0.5";

@@ -135,7 +135,7 @@ fn excerpts_are_lines_of_their_files() {
 }
 
 #[test]
-fn an_excerpt_that_differs_is_seen() {
+fn an_excerpt_that_differs_is_found() {
     let text =
         "text\n<!-- excerpt: src/lib.rs -->\n```rust\na  \n\nb\n```\n<!-- excerpt: src/main.rs -->\n```\nc\n```\n";
     let found = excerpts(text);
@@ -166,7 +166,7 @@ fn links_lead_somewhere() {
 }
 
 #[test]
-fn a_link_that_leads_nowhere_is_seen() {
+fn a_link_that_leads_nowhere_is_found() {
     let found = links("[one](a.md), `[no](code)` and [`two`](b.md#c), ![three](d.png)");
     assert_eq!(found, ["a.md", "b.md#c", "d.png"]);
     let text = "# One and two: `three`, 4\n\n```text\n# none\n```\n".to_owned();

@@ -13,7 +13,7 @@ use bedload::model::Problem;
 use bedload::output::fingerprint;
 use bedload::result::Outcome;
 use bedload::study::{Point, chart, converge};
-use bedload::validate::table::SCENES;
+use bedload::validate::table::ADVICE_TESTS;
 use rayon::prelude::*;
 
 use crate::support::{REGISTRY, project, run};
@@ -146,10 +146,10 @@ fn problems() -> String {
         })
         .collect();
     let mut text = texts.concat();
-    for scene in SCENES {
+    for test in ADVICE_TESTS {
         let owned = |set: &[&str]| set.iter().map(|&s| s.to_owned()).collect::<Vec<_>>();
-        let rivals = scene.rivals.iter().map(|rival| (rival.case, rival.set));
-        for (case, set) in std::iter::once((scene.case, scene.set)).chain(rivals).filter(|(_, set)| !set.is_empty()) {
+        let candidates = test.candidates.iter().map(|candidate| (candidate.case, candidate.set));
+        for (case, set) in std::iter::once((test.case, test.set)).chain(candidates).filter(|(_, set)| !set.is_empty()) {
             text.extend(line(case, &owned(set), false));
         }
     }

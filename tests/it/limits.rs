@@ -60,7 +60,7 @@ fn beds_move_as_a_whole_where_the_balance_says() {
 }
 
 #[test]
-fn locked_layers_are_no_solution() {
+fn jammed_layers_are_no_solution() {
     // Packed grains with an infinite viscosity carry any stress: the discrete equations have solutions in which nothing moves.
     pinned("sheet_1d_limit_newton", "flow.shields", "0.25", "0.05", "locked");
     let (exit, found) = run("sheet_1d_limit_pseudotime", "flow.shields=0.05", &["solver.time_step=1e-2"]);
@@ -80,7 +80,7 @@ fn the_cut_under_the_interface_reaches_the_change_of_type() {
 }
 
 #[test]
-fn the_iteration_needs_its_turns_and_its_steps() {
+fn the_iteration_needs_enough_iterations_and_short_steps() {
     pinned("sheet_1d_limit_pseudotime", "solver.time_step", "2.2e-3", "1.3e-3", "not-converged");
 }
 
@@ -92,7 +92,7 @@ fn limits_that_fail_nothing_are_found_too() {
     assert_eq!(limit["class"], "holds, but inaccurate");
     assert!(limit["holds"].as_f64().unwrap() > 5e-7 && limit["fails"].as_f64().unwrap() < 1.1e-6, "{limit}");
     assert_eq!(found["facts"]["predicted"].as_f64(), Some(1.06e-6));
-    // An ill-posed film is solved in one dimension, and says so.
+    // An ill-posed film is solved in one dimension, and flagged.
     let posed = |slope: &str| {
         let (exit, found) = run("exact_1d_limit_posed", slope, &[]);
         assert_eq!(exit, 0);

@@ -19,8 +19,8 @@ fn a_model_from_outside_is_swept_and_converges() {
     for i in 1..3 {
         assert!((discharge(i) / discharge(i - 1) - 4.0).abs() < 1e-9);
     }
-    let order = &converged.judgement.facts["orders_from_coarsest_to_finest"]["mesh"]["order_velocity"];
-    assert!((order.as_f64().unwrap() - 2.0).abs() < 0.1, "{:?}", converged.judgement.facts);
+    let order = &converged.assessment.facts["orders_from_coarsest_to_finest"]["mesh"]["order_velocity"];
+    assert!((order.as_f64().unwrap() - 2.0).abs() < 0.1, "{:?}", converged.assessment.facts);
     assert_eq!(converged.rows.len(), 5);
 }
 
@@ -70,8 +70,8 @@ fn a_failure_of_its_own_reaches_the_summary_and_has_its_class() {
     let mut settings = Settings::new(&registry, "own_model", &example::Nobody);
     (settings.out, settings.threads) = (Some(scratch.path("o")), 1);
     let case = scratch.path("film.toml").display().to_string();
-    let (plan, judge) = sweep::plan(&case, &[], &["flow.sine=0.05,0.5".into()]).unwrap();
-    let swept = conduct(&plan, &settings, Box::new(|_, _| (Vec::new(), judge))).unwrap();
+    let (plan, assess) = sweep::plan(&case, &[], &["flow.sine=0.05,0.5".into()]).unwrap();
+    let swept = conduct(&plan, &settings, Box::new(|_, _| (Vec::new(), assess))).unwrap();
     let [good, fast] = &swept.rows[..] else { panic!("{:?}", swept.rows) };
     assert_eq!((good.class, fast.class), (None, Some(Class::Unphysical)));
     let folder = swept.record["points"][1]["folder"].as_str().unwrap().to_owned();

@@ -67,7 +67,7 @@ fn solvers_are_private() {
         "use bedload::models::laminar::two_fluid::Coupled;",
         "use bedload::models::laminar::mesh::Mesh;",
         "use bedload::models::section::newton::solve;",
-        "use bedload::models::section::programme::Programme;",
+        "use bedload::models::section::program::Program;",
         "use bedload::models::sheet_flow::newton::Column;",
         "use bedload::models::sheet_flow::outcome::run;",
         "use bedload::models::shear_cell::flow::Flow;",

@@ -115,7 +115,7 @@ fn resume_keeps_what_is_done_and_does_the_rest() {
             (&b["results"], &b["measures"], &b["iterations"])
         );
     }
-    // a finished study is only judged and drawn again
+    // a finished study is only assessed and drawn again
     let said = scratch.bedload([SHORT, &["--resume", "--png"]].concat()).exits(0).out;
     assert!(said.contains("(2 before)") && scratch.path("s/figures/sweep.png").exists(), "{said}");
     assert_eq!(written(&scratch), after);

@@ -11,6 +11,15 @@ const THICKNESS: Range = Range { variable: "mobile_depth_m/d", min: 1.0, max: f6
 /// A bed at rest under the moving grains, too.
 const REST: Range = Range { variable: "yield_level_m/d", min: 1.0, max: f64::INFINITY };
 
+/// The largest value of a profile.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Maximum {
+    /// its level
+    pub level: f64,
+    /// the value
+    pub value: f64,
+}
+
 /// What a solution of the bed comes down to, in units of H, (rho_p - rho_f) g H and (rho_p - rho_f) g H^2/eta.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::models) struct BedNumbers {
@@ -26,8 +35,8 @@ pub(in crate::models) struct BedNumbers {
     pub tau: f64,
     /// yield level
     pub h_c: f64,
-    /// elevation and value of the largest velocity
-    pub largest: (f64, f64),
+    /// largest velocity
+    pub largest: Maximum,
     /// slip U - u_p in the mobile layer just under the bed level, seepage there if nothing moves
     pub slip: f64,
     /// shear rate of the grains at the bed level
@@ -67,8 +76,8 @@ impl BedNumbers {
         results.set(&q::BED_LEVEL, bed.h_p);
         results.set(&q::FLOW_HEIGHT, h);
         results.set(&q::PHI_INTERFACE, self.phi_interface);
-        results.set(&q::U_MAX, self.largest.1 * velocity);
-        results.set(&q::U_MAX_LEVEL, self.largest.0 * h);
+        results.set(&q::U_MAX, self.largest.value * velocity);
+        results.set(&q::U_MAX_LEVEL, self.largest.level * h);
         results.set(&q::MEAN_VELOCITY, discharge / h);
         results.set(&q::FLUID_DISCHARGE, discharge - rate);
         if bed.drag.is_some() {

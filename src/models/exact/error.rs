@@ -74,7 +74,7 @@ impl MethodError for ExactError {
     }
 }
 
-/// The error of a search for the root of `equation`. A search among numbers that are none says so.
+/// The error of a search for the root of `equation`. A search among numbers that are not finite is reported as one.
 pub(in crate::models) fn no_root(equation: &'static str) -> impl Fn(NoRoot) -> SolveError {
     move |NoRoot { low, high, residual, evaluations }| {
         if residual.is_finite() && low.is_finite() && high.is_finite() {

@@ -1,4 +1,4 @@
-//! Closed forms: the least that a scene can cost, and the truth for the solvers of the same equations.
+//! Closed forms: the least that a scene can cost, and the reference for the solvers of the same equations.
 
 pub mod bagnold;
 mod bagnold_case;

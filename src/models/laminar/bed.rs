@@ -52,9 +52,9 @@ impl Dilation {
 }
 
 /// Rounds of flow and packing, or of flow and yield level.
-pub(super) const MOST: usize = 200;
+pub(super) const MAX_ITERATIONS: usize = 200;
 /// Change of a solid fraction, or of the yield level in H, that counts as none.
-pub(super) const SETTLED: f64 = 1e-13;
+pub(super) const CONVERGED: f64 = 1e-13;
 
 /// Where nodes go.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,9 +94,9 @@ impl Bed {
     /// Largest drive with a static layer: that of the closed form for Coulomb friction with one velocity, mu_s phi otherwise.
     #[must_use]
     pub fn largest_drive(&self) -> f64 {
-        let hold = self.mu_s * self.phi;
+        let resistance = self.mu_s * self.phi;
         let k = if self.rise.is_some() { Some(0.0) } else { self.k };
-        Scaled { f: self.f, hold, e: self.e, h_p: self.h_p, k }.largest_drive()
+        Scaled { f: self.f, resistance, e: self.e, h_p: self.h_p, k }.largest_drive()
     }
 
     /// The mesh for the yield level `h_c`.
@@ -134,9 +134,9 @@ impl Bed {
     /// [`BedError::NoStaticBed`] and [`BedError::WholeBedMoves`] where the grains yield down to the lower wall,
     /// [`NumericalError::NotConverged`](crate::result::NumericalError::NotConverged) if round-off is not reached.
     pub fn solve(&self, nodes: Nodes, regularisation: &Regularisation) -> Result<Solution, SolveError> {
-        let hold = self.mu_s * self.phi;
-        if self.f >= hold {
-            return Err(BedError::NoStaticBed { drive: self.f, limit: hold }.into());
+        let resistance = self.mu_s * self.phi;
+        if self.f >= resistance {
+            return Err(BedError::NoStaticBed { drive: self.f, limit: resistance }.into());
         }
         match self.k {
             None => self.mixed(nodes, regularisation),
@@ -170,7 +170,7 @@ impl Bed {
     ) -> Result<(Mesh, Packing, single::Solved), SolveError> {
         let law = regularisation.unwrap_or(&Regularisation::EXACT);
         let mut moved = f64::INFINITY;
-        for _ in 0..MOST {
+        for _ in 0..MAX_ITERATIONS {
             let mesh = self.mesh(nodes, *h_c);
             let (packing, solved) = if self.dilation.is_some() {
                 spreading::solve(self, &mesh, law)
@@ -192,11 +192,11 @@ impl Bed {
             let level = level.min(self.h_p);
             moved = (level - *h_c).abs();
             *h_c = level;
-            if !nodes.on_yield || moved <= SETTLED {
+            if !nodes.on_yield || moved <= CONVERGED {
                 return Ok((mesh, packing, solved));
             }
         }
-        Err(SolveError::not_converged(moved, MOST))
+        Err(SolveError::not_converged(moved, MAX_ITERATIONS))
     }
 
     pub(super) fn whole_bed(&self, level: f64) -> SolveError {

@@ -9,7 +9,7 @@ use crate::closures::regularisation::Regularisation;
 use crate::models::BedError;
 use crate::models::bed_error::in_si;
 use crate::models::exact::bed::{Drive, LaminarBed};
-use crate::models::exact::bed_results::BedNumbers;
+use crate::models::exact::bed_results::{BedNumbers, Maximum};
 use crate::models::exact::ouriemi::viscosity_text;
 use crate::models::exact::{balance, no_root, outcome};
 use crate::models::laminar::RegularisedBed;
@@ -122,7 +122,7 @@ fn numbers(bed: &Bed, solution: &Solution) -> BedNumbers {
         discharge: solution.discharge() + 0.5 * u * d + bed.f * d.powi(3) / 12.0,
         tau,
         h_c: solution.h_c,
-        largest: (bed.h_p + x, u + tau * x - 0.5 * bed.f * x * x),
+        largest: Maximum { level: bed.h_p + x, value: u + tau * x - 0.5 * bed.f * x * x },
         slip: u - solution.w[solution.bed],
         shear: rate,
     }

@@ -4,6 +4,8 @@
 //! ([`crate::closures::dilatancy::PhiIv::under`]). The shear rates are given; flow and packing are
 //! iterated in turn.
 
+use std::ops::RangeInclusive;
+
 use super::bed::Bed;
 use super::mesh::Mesh;
 
@@ -67,7 +69,7 @@ impl Relaxation {
             let changes = missed.iter().zip(&self.missed).map(|(new, old)| (old * (new - old), (new - old).powi(2)));
             let (along, size) = changes.fold((0.0, 0.0), |(a, b), (c, d)| (a + c, b + d));
             let omega = -self.omega * along / size;
-            self.omega = if (LEAST..=MOST).contains(&omega) { omega } else { 1.0 };
+            self.omega = if RELAXATION.contains(&omega) { omega } else { 1.0 };
         } else {
             self.omega = 1.0;
         }
@@ -76,6 +78,5 @@ impl Relaxation {
     }
 }
 
-/// Relaxation factors outside are not believed.
-const LEAST: f64 = 0.1;
-const MOST: f64 = 2.0;
+/// Smallest and largest relaxation factor that are used; for one beyond them 1 is.
+const RELAXATION: RangeInclusive<f64> = 0.1..=2.0;

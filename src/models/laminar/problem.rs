@@ -136,7 +136,7 @@ impl Model for OnMesh<RegularisedBed> {
     fn offer(flow: &Flow, _: f64) -> Option<Offer> {
         let Flow::Laminar(scene) = flow else { return None };
         // Only a case of this model has what no closed form holds.
-        if scene.kind != Self::INFO.name || scene.friction.1.is_none() && !scene.dilates {
+        if scene.kind != Self::INFO.name || scene.mu_2.is_none() && !scene.dilates {
             return None;
         }
         let form = if scene.k_ck.is_some() { "two-fluid form" } else { "mixed form" };

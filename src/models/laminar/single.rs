@@ -39,7 +39,7 @@ pub struct NotConverged {
     pub iterations: usize,
 }
 
-const MOST: usize = 100;
+const MAX_ITERATIONS: usize = 100;
 
 /// Solves for the velocity under the drive `f`, no slip at both walls.
 ///
@@ -56,7 +56,7 @@ pub fn solve(
     let (mut low, mut high) = (0.0, f);
     let mut t_0 = 0.5 * f;
     let mut history = Vec::new();
-    for _ in 0..MOST {
+    for _ in 0..MAX_ITERATIONS {
         let (mut sum, mut size, mut slope) = (0.0, 0.0, 0.0);
         for (k, element) in elements.iter().enumerate() {
             let (rate, inverse) = element.shear_rate(t_0 - f * mesh.middle(k), regularisation);
@@ -88,7 +88,7 @@ pub fn solve(
             return Ok(finish(mesh, t_0, gamma, history));
         }
     }
-    Err(NotConverged { residual: history.last().copied().unwrap_or(f64::NAN), iterations: MOST })
+    Err(NotConverged { residual: history.last().copied().unwrap_or(f64::NAN), iterations: MAX_ITERATIONS })
 }
 
 /// Velocities from both walls to the largest one, so that round-off does not pile up at the upper wall.

@@ -4,7 +4,7 @@
 //! rises with the shear rate the grains start from rest without a kink; the yield level is where their shear rate, which falls
 //! to 0 in proportion, gets there.
 
-use super::bed::{Bed, MOST, Nodes, SETTLED, Solution};
+use super::bed::{Bed, CONVERGED, MAX_ITERATIONS, Nodes, Solution};
 use super::mesh::Mesh;
 use super::packing::{Packing, Relaxation};
 use super::{single, two_fluid};
@@ -81,7 +81,7 @@ impl Bed {
             }
         }
         let regularisation = if regularisation.is_exact() { &ALMOST_EXACT } else { regularisation };
-        let (packing, solved) = self.creeping(&mesh, h_c, &solved, &mut gamma, regularisation, 1e2 * SETTLED)?;
+        let (packing, solved) = self.creeping(&mesh, h_c, &solved, &mut gamma, regularisation, 1e2 * CONVERGED)?;
         Ok(self.collect(mesh, packing, h_c, solved))
     }
 
@@ -93,7 +93,7 @@ impl Bed {
         two_fluid::Solved { u: one.u.clone(), w: one.u[..=bed].to_vec(), tau_p, history: Vec::new() }
     }
 
-    /// Two velocities, with the packing that the shear rates `gamma` of the grains leave, up to a change of `settled`.
+    /// Two velocities, with the packing that the shear rates `gamma` of the grains leave, up to a change of `converged`.
     fn creeping(
         &self,
         mesh: &Mesh,
@@ -101,14 +101,14 @@ impl Bed {
         from: &two_fluid::Solved,
         gamma: &mut Vec<f64>,
         regularisation: &Regularisation,
-        settled: f64,
+        converged: f64,
     ) -> Result<(Packing, two_fluid::Solved), SolveError> {
         let mut from = from.clone();
         let (mut missed, mut relaxation) = (1.0, Relaxation::default());
-        for _ in 0..MOST {
+        for _ in 0..MAX_ITERATIONS {
             let packing = Packing::of(self, mesh, gamma);
             // No better than the packing is known.
-            let tolerance = if self.dilation.is_some() && missed > settled { 1e-3 * missed } else { 0.0 };
+            let tolerance = if self.dilation.is_some() && missed > converged { 1e-3 * missed } else { 0.0 };
             let solved = self
                 .with(mesh, &packing, h_c, |coupled| coupled.creeping(&from, regularisation, tolerance))
                 .map_err(|e| SolveError::not_converged(e.residual, e.iterations))?;
@@ -122,7 +122,7 @@ impl Bed {
             relaxation.step(gamma, rates);
             from = solved;
         }
-        Err(SolveError::not_converged(missed, MOST))
+        Err(SolveError::not_converged(missed, MAX_ITERATIONS))
     }
 
     /// Calls `run` with the coupled problem on `mesh`.

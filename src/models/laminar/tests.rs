@@ -22,7 +22,7 @@ fn coulomb(k: Option<f64>) -> Bed {
 }
 
 fn closed(bed: &Bed) -> Closed {
-    Scaled { f: bed.f, hold: bed.mu_s * bed.phi, e: bed.e, h_p: bed.h_p, k: bed.k }.solve(|_| {}).unwrap()
+    Scaled { f: bed.f, resistance: bed.mu_s * bed.phi, e: bed.e, h_p: bed.h_p, k: bed.k }.solve(|_| {}).unwrap()
 }
 
 fn nodes(elements: usize, on_yield: bool) -> Nodes {

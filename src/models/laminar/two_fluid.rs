@@ -16,7 +16,7 @@
 //!
 //! **Regularised** ([`Coupled::creeping`]): Newton on U, w and the carried ratio `r = R(gamma)` of each element as a third unknown, with
 //! `r m(gamma) = gamma` linearised in all of them and eliminated in the element (after Chan, Golub & Mulet 1999, SIAM J. Sci.
-//! Comput. 20, 1964-1977). Without the extra unknown Newton's method stalls for small lambda. It starts from the exact yield.
+//! Comput. 20, 1964-1977). Without the extra unknown Newton's method does not converge for small lambda. It starts from the exact yield.
 
 use nalgebra::{Matrix2, Vector2};
 
@@ -36,7 +36,7 @@ pub struct Coupled<'a> {
     pub bed: usize,
     /// drive
     pub f: f64,
-    /// how the fluid feels the elements of the bed: [`Coupled::seepages`]
+    /// forces of the elements of the bed on the fluid: [`Coupled::seepages`]
     pub seepages: &'a [Seepage],
     /// permeability of each element of the bed
     pub k: &'a [f64],
@@ -67,11 +67,11 @@ pub struct NotConverged {
     pub iterations: usize,
 }
 
-const MOST: usize = 200;
+const MAX_ITERATIONS: usize = 200;
 /// Residual of the momentum, relative to the drive, that round-off allows.
 const ROUND_OFF: f64 = 1e-13;
 
-/// How the fluid feels one element of the bed: stress in its middle `e w' + middle (V_above - V_below)`, drag on the half at a
+/// Forces of one element of the bed on the fluid: stress in its middle `e w' + middle (V_above - V_below)`, drag on the half at a
 /// node `f h/2 + own V_node + other V_opposite`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Seepage {
@@ -81,7 +81,7 @@ pub struct Seepage {
 }
 
 impl Coupled<'_> {
-    /// How the fluid feels each element of the bed; the lowest `fitted` ones are fitted to exponentials.
+    /// Forces of each element of the bed on the fluid; the lowest `fitted` ones are fitted to exponentials.
     #[must_use]
     pub fn seepages(mesh: &Mesh, elements: &[Element], k: &[f64], fitted: usize) -> Vec<Seepage> {
         let seepage = |(i, permeability): (usize, &f64)| {
@@ -183,14 +183,14 @@ impl Coupled<'_> {
         let mut history = Vec::new();
         let mut rows = vec![Row::<2>::zero(); n - 1];
         let mut best = f64::INFINITY;
-        for iteration in 0..MOST {
+        for iteration in 0..MAX_ITERATIONS {
             let tau_p: Vec<f64> = (0..self.bed)
                 .map(|k| self.elements[k].solid((w[k + 1] - w[k]) / self.mesh.size(k), regularisation).0)
                 .collect();
             let residual = self.residual(&u, &w, &tau_p);
             history.push(residual);
-            let stalled = iteration > 3 && residual <= 100.0 * ROUND_OFF && residual >= 0.5 * best;
-            if residual <= ROUND_OFF.max(tolerance) || stalled {
+            let at_round_off = iteration > 3 && residual <= 100.0 * ROUND_OFF && residual >= 0.5 * best;
+            if residual <= ROUND_OFF.max(tolerance) || at_round_off {
                 return Ok(Solved { u, w, tau_p, history });
             }
             best = best.min(residual);
@@ -212,7 +212,7 @@ impl Coupled<'_> {
                 ratio[k] = r.clamp(-1.0, 1.0);
             }
         }
-        Err(NotConverged { residual: history.last().copied().unwrap_or(f64::NAN), iterations: MOST })
+        Err(NotConverged { residual: history.last().copied().unwrap_or(f64::NAN), iterations: MAX_ITERATIONS })
     }
 
     /// Drag on the half of element `k` at its upper or lower node.

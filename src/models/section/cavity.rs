@@ -15,7 +15,7 @@
 //! Scalar and convex, of second order for a Newtonian fluid. At the two upper corners, where the velocity jumps, S is left
 //! out. The stencil is that of the staggered scheme: Harlow & Welch (1965), Phys. Fluids 8, 2182-2189.
 
-use super::programme::{Block, FIXED, Point, Programme};
+use super::program::{Block, FIXED, Point, Program};
 use crate::numerics::levels::graded;
 use crate::numerics::sparse::Pattern;
 
@@ -32,7 +32,7 @@ pub struct Cavity {
     /// faces from the bottom to the lid, 0 to 1
     pub z: Vec<f64>,
     /// the minimum; unknowns are the stream function at the inner nodes
-    pub programme: Programme<PARTS, KNOWN>,
+    pub program: Program<PARTS, KNOWN>,
     /// unknown at each node
     unknowns: Vec<u32>,
 }
@@ -65,7 +65,7 @@ impl Cavity {
         });
         let (y, z) = (y, z);
         let mut cavity = Self {
-            programme: Programme {
+            program: Program {
                 pattern: Pattern::of_blocks(0, std::iter::empty()),
                 order: Some((0..n).collect()),
                 base: Vec::new(),
@@ -81,9 +81,9 @@ impl Cavity {
         let cells: Vec<(usize, usize)> = (0..up - 1).flat_map(|j| (0..across - 1).map(move |i| (i, j))).collect();
         let known: Vec<[u32; KNOWN]> = cells.iter().map(|(i, j)| cavity.known(*i, *j)).collect();
         let pattern = Pattern::of_blocks(n as usize, known.iter().map(<[u32; KNOWN]>::as_slice));
-        let programme = &mut cavity.programme;
-        programme.base = vec![0.0; pattern.entries()];
-        programme.pattern = pattern;
+        let program = &mut cavity.program;
+        program.base = vec![0.0; pattern.entries()];
+        program.pattern = pattern;
         for ((i, j), known) in cells.into_iter().zip(known) {
             cavity.assemble(bn, i, j, known);
         }
@@ -106,7 +106,7 @@ impl Cavity {
             [stretch, self.shear(i, j, 0, 0), self.shear(i, j, 1, 0), self.shear(i, j, 0, 1), self.shear(i, j, 1, 1)];
         let strain = forms.map(|form| form.by_node);
         let offset = forms.map(|form| form.constant);
-        let block = Block::new(known, &self.programme.pattern);
+        let block = Block::new(known, &self.program.pattern);
         let (mut local, mut load) = ([[0.0; KNOWN]; KNOWN], [0.0; KNOWN]);
         for (row, constant) in strain.iter().zip(offset) {
             for a in 0..KNOWN {
@@ -116,11 +116,11 @@ impl Cavity {
                 }
             }
         }
-        block.add(&local, &mut self.programme.base);
-        block.scatter(&load, &mut self.programme.load);
+        block.add(&local, &mut self.program.base);
+        block.scatter(&load, &mut self.program.load);
         if bn > 0.0 {
-            self.programme.blocks.push(block);
-            self.programme.points.push(Point { strain, offset, weight, carried: weight * bn });
+            self.program.blocks.push(block);
+            self.program.points.push(Point { strain, offset, weight, carried: weight * bn });
         }
     }
 

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use serde_json::{Map, json};
 
 use super::cavity::Cavity;
-use super::newton::{Solved, Stalled};
+use super::newton::{Solved, Unsolved};
 use super::outcome::history;
 use super::{dual, newton};
 use crate::closures::regularisation::Regularisation;
@@ -19,31 +19,31 @@ use crate::units::significant;
 /// Solves the cavity on `cells` by `cells` cells.
 ///
 /// # Errors
-/// [`SectionError::Unsettled`](crate::models::section::SectionError::Unsettled) if the method does not get there, [`NumericalError::NotRepresentable`](crate::result::NumericalError::NotRepresentable) if numbers leave their range.
+/// [`SectionError::NotConverged`](crate::models::section::SectionError::NotConverged) if the method does not get there, [`NumericalError::NotRepresentable`](crate::result::NumericalError::NotRepresentable) if numbers leave their range.
 pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let cavity = Cavity::new(flow.bingham(), cells, flow.solver.finest);
     let law = &flow.regularisation;
-    let mut turns = 0_usize;
+    let mut iterations = 0_usize;
     let mut see = |change: f64| -> ControlFlow<()> {
-        turns += 1;
-        let stage = format!("iteration {turns}, change {change:.1e}");
-        watch.see(&Snapshot { stage: &stage, fraction: 1.0 - 1.0 / (1.0 + 0.05 * turns as f64), quantity: None })
+        iterations += 1;
+        let stage = format!("iteration {iterations}, change {change:.1e}");
+        watch.see(&Snapshot { stage: &stage, fraction: 1.0 - 1.0 / (1.0 + 0.05 * iterations as f64), quantity: None })
     };
     let solved = match flow.solver.method {
-        Method::Newton => newton::solve(&cavity.programme, law, &mut see),
-        Method::FirstOrder => dual::solve(&cavity.programme, flow.solver.tolerance, flow.solver.iterations, &mut see),
+        Method::Newton => newton::solve(&cavity.program, law, &mut see),
+        Method::FirstOrder => dual::solve(&cavity.program, flow.solver.tolerance, flow.solver.iterations, &mut see),
     };
     let solved = match solved {
-        Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
-        solved => solved.map_err(|stalled| failed(stalled, flow))?,
+        Err(Unsolved::Stopped) => return Ok(Outcome::stopped()),
+        solved => solved.map_err(|unsolved| failed(unsolved, flow))?,
     };
     let psi = cavity.stream(&solved.x);
     let stresses = cavity.stresses(&solved);
     let mut results = results(flow, &cavity, &solved, &psi, &stresses);
     if !law.is_exact() {
-        match newton::solve(&cavity.programme, &Regularisation::EXACT, &mut see) {
-            Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
-            Err(stalled) => return Err(failed(stalled, flow).into()),
+        match newton::solve(&cavity.program, &Regularisation::EXACT, &mut see) {
+            Err(Unsolved::Stopped) => return Ok(Outcome::stopped()),
+            Err(unsolved) => return Err(failed(unsolved, flow).into()),
             Ok(exact) => {
                 let norm = |of: &dyn Fn(usize) -> f64| (0..exact.x.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt();
                 let change = norm(&|i| solved.x[i] - exact.x[i]) / norm(&|i| exact.x[i]);
@@ -76,8 +76,8 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
 /// Stress over yield stress beyond which it makes no difference.
 const LARGE: f64 = 2.0;
 
-fn failed(stalled: Stalled, flow: &CavityFlow) -> SolveError {
-    stalled.into_error(flow.solver.method, flow.lid / flow.h)
+fn failed(unsolved: Unsolved, flow: &CavityFlow) -> SolveError {
+    unsolved.into_error(flow.solver.method, flow.lid / flow.h)
 }
 
 impl Cavity {
@@ -88,7 +88,7 @@ impl Cavity {
 
     /// Stress over yield stress of each cell, from the mean of its shear stresses: those of single nodes oscillate.
     fn stresses(&self, solved: &Solved<5>) -> Vec<f64> {
-        let points = &self.programme.points;
+        let points = &self.program.points;
         let part = |k: usize, d: usize| points[k].carried * solved.q[k][d] + points[k].weight * solved.g[k][d];
         let stress = |k: usize| part(k, 0).hypot(0.5 * (1..5).map(|d| part(k, d)).sum::<f64>());
         (0..points.len()).map(|k| stress(k) / points[k].carried).collect()
@@ -128,7 +128,7 @@ fn top(x: &[f64], f: &[f64; 3]) -> (f64, f64) {
 fn results(flow: &CavityFlow, cavity: &Cavity, solved: &Solved<5>, psi: &[f64], stresses: &[f64]) -> Results {
     let (y, z, strength) = cavity.vortex(psi);
     let area: f64 = cavity
-        .programme
+        .program
         .points
         .iter()
         .zip(stresses)

@@ -13,12 +13,12 @@
 //! minimise   integral e/2 |grad u|^2 - f u  +  integral over the bed (u - w)^2/(2 k) + y |grad w|
 //! ```
 //!
-//! In the bed `y = hold (h_p - z)`, the friction under the weight of the grains above. Source: Chauchat & Medale (2010),
+//! In the bed `y = resistance (h_p - z)`, the friction under the weight of the grains above. Source: Chauchat & Medale (2010),
 //! Comput. Methods Appl. Mech. Engrg. 199, 439-449, eq. (12)-(13), developed and along x.
 
 use super::element::{self, points};
 use super::mesh::{Division, Mesh};
-use super::programme::{Block, FIXED, Point, Programme};
+use super::program::{Block, FIXED, Point, Program};
 use crate::models::section::Outline;
 use crate::numerics::sparse::Pattern;
 
@@ -34,7 +34,7 @@ pub enum Filling {
         /// relative viscosity of the bed
         e: f64,
         /// mu_s phi: yield stress per depth below the bed level
-        hold: f64,
+        resistance: f64,
         /// permeability; `None`: one velocity
         k: Option<f64>,
     },
@@ -63,7 +63,7 @@ pub struct Divided {
     /// unknown of the velocity of the grains, where they have their own
     pub w_at: Vec<u32>,
     /// the minimum
-    pub programme: Programme<2, 9>,
+    pub program: Program<2, 9>,
 }
 
 impl Duct {
@@ -80,7 +80,7 @@ impl Duct {
     pub(super) fn material(&self, z: f64, in_bed: bool) -> (f64, f64, Option<f64>) {
         match self.filling {
             Filling::Bingham(y) => (1.0, y, None),
-            Filling::Bed { level, e, hold, k } if in_bed => (e, hold * (level - z), k),
+            Filling::Bed { level, e, resistance, k } if in_bed => (e, resistance * (level - z), k),
             Filling::Bed { .. } => (1.0, 0.0, None),
         }
     }
@@ -120,7 +120,7 @@ impl Duct {
         };
         let all: Vec<[u32; 18]> = (0..mesh.elements()).map(unknowns).collect();
         let pattern = Pattern::of_blocks(n as usize, all.iter().map(<[u32; 18]>::as_slice));
-        let mut programme = Programme {
+        let mut program = Program {
             base: vec![0.0; pattern.entries()],
             load: vec![0.0; n as usize],
             blocks: Vec::new(),
@@ -130,12 +130,12 @@ impl Duct {
             pattern,
         };
         for (element, unknowns) in all.iter().enumerate() {
-            self.assemble(&mesh, element, unknowns, &mut programme);
+            self.assemble(&mesh, element, unknowns, &mut program);
         }
-        Divided { duct: *self, mesh, u_at, w_at, programme }
+        Divided { duct: *self, mesh, u_at, w_at, program }
     }
 
-    fn assemble(&self, mesh: &Mesh, element: usize, unknowns: &[u32; 18], programme: &mut Programme<2, 9>) {
+    fn assemble(&self, mesh: &Mesh, element: usize, unknowns: &[u32; 18], program: &mut Program<2, 9>) {
         let in_bed = element / mesh.columns < mesh.bed_rows;
         let (mut local, mut load) = ([[0.0; 18]; 18], [0.0; 18]);
         let mut yielding = Vec::new();
@@ -162,14 +162,14 @@ impl Duct {
                 yielding.push(Point { strain: gradient, offset: [0.0; 2], weight, carried: weight * y });
             }
         }
-        let whole = Block::new(*unknowns, &programme.pattern);
-        whole.add(&local, &mut programme.base);
-        whole.scatter(&load, &mut programme.load);
+        let whole = Block::new(*unknowns, &program.pattern);
+        whole.add(&local, &mut program.base);
+        whole.scatter(&load, &mut program.load);
         if yielding.len() == 9 {
             let from = if slips { 9 } else { 0 };
             let block = std::array::from_fn(|k| unknowns[from + k]);
-            programme.blocks.push(Block::new(block, &programme.pattern));
-            programme.points.extend(yielding);
+            program.blocks.push(Block::new(block, &program.pattern));
+            program.points.extend(yielding);
         }
     }
 }

@@ -66,7 +66,7 @@ pub enum SectionError {
     #[error(
         "the {method} method ends {change:.3e} (relative) from its goal after {iterations} iterations, at lambda = {lambda_1_s:.3e} 1/s"
     )]
-    Unsettled {
+    NotConverged {
         /// the method
         method: &'static str,
         /// last relative change of the velocity, or duality gap
@@ -79,7 +79,7 @@ pub enum SectionError {
 }
 
 codes!(SectionError {
-    Self::Unsettled { .. } => "unsettled",
+    Self::NotConverged { .. } => "unsettled",
 });
 
 impl MethodError for SectionError {

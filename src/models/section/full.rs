@@ -24,8 +24,8 @@ use nalgebra::{Cholesky as Dense, SMatrix, SVector};
 
 use super::duct::Divided;
 use super::element::{self, GAUSS, points, quadratic};
-use super::newton::{self, Solved, Stalled};
-use super::programme::{Block, FIXED, Point, Programme};
+use super::newton::{self, Solved, Unsolved};
+use super::program::{Block, FIXED, Point, Program};
 use crate::closures::regularisation::Regularisation;
 use crate::numerics::sparse::Pattern;
 
@@ -39,7 +39,7 @@ const PRESSURES: usize = 4;
 /// Penalty over the viscosity of the fluid.
 const PENALTY: f64 = 1e6;
 /// Relative change of the velocity that counts as none: the penalty times round-off, and some more.
-const SETTLED: f64 = 1e-9;
+const CONVERGED: f64 = 1e-9;
 
 /// The whole duct on its elements.
 #[derive(Clone, Debug)]
@@ -52,7 +52,7 @@ pub struct Full<'a> {
     /// unknown of each component at each node: nodes of the section, in each of them planes along x
     at: Vec<u32>,
     /// the minimum, with the penalty
-    pub programme: Programme<PARTS, KNOWN>,
+    pub program: Program<PARTS, KNOWN>,
     /// what the pressures of the elements of the section see, the same all along x
     pressures: Vec<Pressures>,
 }
@@ -114,7 +114,7 @@ impl<'a> Full<'a> {
             .map(|(e, s)| known(e, s))
             .collect();
         let pattern = Pattern::of_blocks(n as usize, all.iter().map(<[u32; KNOWN]>::as_slice));
-        let mut programme = Programme {
+        let mut program = Program {
             base: vec![0.0; pattern.entries()],
             load: vec![0.0; n as usize],
             blocks: Vec::new(),
@@ -127,26 +127,26 @@ impl<'a> Full<'a> {
         for element in 0..mesh.elements() {
             let one = Assembled::new(section, element, along, weight);
             for known in &all[element * along..(element + 1) * along] {
-                let block = Block::new(*known, &programme.pattern);
-                block.add(&one.local, &mut programme.base);
-                block.scatter(&one.load, &mut programme.load);
+                let block = Block::new(*known, &program.pattern);
+                block.add(&one.local, &mut program.base);
+                block.scatter(&one.load, &mut program.load);
                 if !one.yielding.is_empty() {
-                    programme.blocks.push(block);
-                    programme.points.extend(&one.yielding);
+                    program.blocks.push(block);
+                    program.points.extend(&one.yielding);
                 }
             }
             pressures.push(one.pressures);
         }
-        Self { section, weight, along, at, programme, pressures }
+        Self { section, weight, along, at, program, pressures }
     }
 
     /// Solves; `see` receives the relative change of each iteration.
     ///
     /// # Errors
-    /// [`Stalled`].
-    pub fn solve(&self, law: &Regularisation, see: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Whole, Stalled> {
+    /// [`Unsolved`].
+    pub fn solve(&self, law: &Regularisation, see: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Whole, Unsolved> {
         let mut pressure = vec![[0.0; PRESSURES]; self.section.mesh.elements() * self.along];
-        let mut hold = |x: &[f64], load: &mut [f64]| {
+        let mut correct = |x: &[f64], load: &mut [f64]| {
             for (k, p) in pressure.iter_mut().enumerate() {
                 let known = self.known(k);
                 for (row, p) in self.pressures[k / self.along].divergence.iter().zip(p) {
@@ -157,7 +157,7 @@ impl<'a> Full<'a> {
                 }
             }
         };
-        let solved = newton::solve_held(&self.programme, law, SETTLED, &mut hold, see)?;
+        let solved = newton::solve_corrected(&self.program, law, CONVERGED, &mut correct, see)?;
         Ok(self.whole(&solved, &pressure))
     }
 
@@ -178,7 +178,7 @@ impl<'a> Full<'a> {
             if unknown == FIXED { 0.0 } else { solved.x[unknown as usize] }
         };
         let (mut largest, mut uneven, mut across) = (0.0_f64, 0.0_f64, 0.0_f64);
-        let mut x = vec![0.0; self.section.programme.size()];
+        let mut x = vec![0.0; self.section.program.size()];
         for node in 0..self.section.mesh.nodes() {
             let mean = (0..planes).map(|plane| value(node, plane, 0)).sum::<f64>() / planes as f64;
             for plane in 0..planes {

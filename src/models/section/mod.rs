@@ -1,6 +1,6 @@
 //! Flow in two-dimensional sections of a material with a yield stress: ducts, with or without a bed of grains, and a cavity.
 //!
-//! The developed flow along a duct needs only its cross-section, and a yield stress makes it a convex minimum (`programme`),
+//! The developed flow along a duct needs only its cross-section, and a yield stress makes it a convex minimum (`program`),
 //! which Newton's method (`newton`) or a first-order method (`dual`) finds, the yield exact or regularised. Quadratic
 //! elements on structured meshes (`mesh`, `element`, `duct`); over a bed the mesh follows the yield surface (`fit`). The
 //! plane flow in a `cavity` is the same kind of minimum in its discrete stream function.
@@ -21,7 +21,7 @@ mod newton;
 mod numbers;
 mod outcome;
 mod problem;
-mod programme;
+mod program;
 mod solve;
 mod study;
 #[cfg(test)]

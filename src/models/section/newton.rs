@@ -9,18 +9,18 @@
 //! ```
 //!
 //! With `|q| <= 1`, to which `q` is scaled back in each point, the matrix is symmetric positive definite, its pattern fixed.
-//! Linearised as a function of `g` alone, Newton's method stalls for small lambda.
+//! Linearised as a function of `g` alone, Newton's method does not converge for small lambda.
 //!
 //! The **exact yield** is the limit of `m = sqrt(|g|^2 + lambda^2)` for falling lambda: a step at each, until neither the
 //! velocity nor the minimum changes any more.
 
 use std::ops::ControlFlow;
 
-use super::programme::{Programme, length};
+use super::program::{Program, length};
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::numerics::sparse::{Cholesky, NotPositive};
 
-/// A solved programme.
+/// A solved program.
 #[derive(Clone, Debug)]
 pub struct Solved<const D: usize> {
     /// unknowns
@@ -41,10 +41,10 @@ pub struct Solved<const D: usize> {
 
 /// Why there is no solution.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Stalled {
+pub enum Unsolved {
     /// not converged
     #[error("the velocity changes by {change:.3e} after {iterations} iterations at lambda = {lambda:.3e}")]
-    Unsettled {
+    NotConverged {
         /// relative change
         change: f64,
         /// iterations made
@@ -60,10 +60,10 @@ pub enum Stalled {
     Matrix(#[from] NotPositive),
 }
 
-/// Most iterations.
-const MOST: usize = 300;
+/// Iterations before giving up.
+const MAX_ITERATIONS: usize = 300;
 /// Relative change of the unknowns that counts as none.
-const SETTLED: f64 = 1e-11;
+const CONVERGED: f64 = 1e-11;
 /// Last lambda of the exact yield over the largest shear rate of the Newtonian flow.
 const RIGID: f64 = 1e-10;
 /// Unknowns over those of the Newtonian flow below which nothing moves.
@@ -73,7 +73,7 @@ const FALL: f64 = 0.2;
 
 /// State of the iteration.
 struct Iterate<'a, const D: usize, const N: usize> {
-    programme: &'a Programme<D, N>,
+    program: &'a Program<D, N>,
     load: Vec<f64>,
     cholesky: Cholesky,
     values: Vec<f64>,
@@ -84,88 +84,88 @@ struct Iterate<'a, const D: usize, const N: usize> {
     q: Vec<[f64; D]>,
 }
 
-/// Solves a programme with a law of regularisation, or with the exact yield.
+/// Solves a program with a law of regularisation, or with the exact yield.
 ///
 /// # Errors
-/// [`Stalled`].
+/// [`Unsolved`].
 pub fn solve<const D: usize, const N: usize>(
-    programme: &Programme<D, N>,
+    program: &Program<D, N>,
     law: &Regularisation,
     see: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Solved<D>, Stalled> {
-    solve_held(programme, law, SETTLED, &mut |_, _| (), see)
+) -> Result<Solved<D>, Unsolved> {
+    solve_corrected(program, law, CONVERGED, &mut |_, _| (), see)
 }
 
-/// As [`solve`], with forces that depend on the solution: after each step `hold` receives the unknowns and corrects the load,
+/// As [`solve`], with forces that depend on the solution: after each step `correct` receives the unknowns and corrects the load,
 /// as the pressure does that holds a flow free of divergence. `none` is the relative change that counts as none.
 ///
 /// # Errors
-/// [`Stalled`].
-pub fn solve_held<const D: usize, const N: usize>(
-    programme: &Programme<D, N>,
+/// [`Unsolved`].
+pub fn solve_corrected<const D: usize, const N: usize>(
+    program: &Program<D, N>,
     law: &Regularisation,
     none: f64,
-    hold: &mut dyn FnMut(&[f64], &mut [f64]),
+    correct: &mut dyn FnMut(&[f64], &mut [f64]),
     see: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Solved<D>, Stalled> {
-    let mut cholesky = Cholesky::new(&programme.pattern, programme.order.as_deref())?;
-    cholesky.factorise(&programme.base)?;
-    let mut x = programme.load.clone();
+) -> Result<Solved<D>, Unsolved> {
+    let mut cholesky = Cholesky::new(&program.pattern, program.order.as_deref())?;
+    cholesky.factorise(&program.base)?;
+    let mut x = program.load.clone();
     cholesky.solve(&mut x);
-    let points = programme.points.len();
+    let points = program.points.len();
     let mut g = vec![[0.0; D]; points];
-    programme.strains(&x, &mut g);
+    program.strains(&x, &mut g);
     let scale = g.iter().map(length).fold(0.0, f64::max);
-    let values = programme.base.clone();
+    let values = program.base.clone();
     let still = STILL * x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let mut load = programme.load.clone();
-    hold(&x, &mut load);
-    let mut iterate = Iterate { programme, load, cholesky, values, still, x, g, q: vec![[0.0; D]; points] };
+    let mut load = program.load.clone();
+    correct(&x, &mut load);
+    let mut iterate = Iterate { program, load, cholesky, values, still, x, g, q: vec![[0.0; D]; points] };
     let mut history = Vec::new();
     let exact = law.is_exact();
     let floor = if exact { RIGID * scale } else { law.lambda };
     let mut lambda = if exact { 0.1 * scale } else { law.lambda.max(scale) };
     let mut lawful = if exact { Regularisation { law: Smoothing::BercovierEngelman, lambda } } else { *law };
-    let mut settled = points == 0;
-    for _ in 0..MOST {
-        if settled {
+    let mut converged = points == 0;
+    for _ in 0..MAX_ITERATIONS {
+        if converged {
             break;
         }
         lawful.lambda = lambda;
         let change = iterate.step(&lawful)?;
-        hold(&iterate.x, &mut iterate.load);
+        correct(&iterate.x, &mut iterate.load);
         history.push(change);
         if see(change).is_break() {
-            return Err(Stalled::Stopped);
+            return Err(Unsolved::Stopped);
         }
         if !change.is_finite() {
             break;
         }
         let last = lambda <= floor;
-        settled = change < none && last;
+        converged = change < none && last;
         if !last && change < 0.3 {
             lambda = (FALL * lambda).max(floor);
         }
     }
-    if !settled {
+    if !converged {
         let change = history.last().copied().unwrap_or(f64::INFINITY);
-        return Err(Stalled::Unsettled { change, iterations: history.len(), lambda });
+        return Err(Unsolved::NotConverged { change, iterations: history.len(), lambda });
     }
     let Iterate { x, g, q, load, .. } = iterate;
-    let work: f64 = x.iter().zip(&programme.load).map(|(x, b)| x * b).sum();
+    let work: f64 = x.iter().zip(&program.load).map(|(x, b)| x * b).sum();
     let size = |forces: &[f64]| forces.iter().map(|r| r.abs()).sum::<f64>();
-    let imbalance = size(&programme.imbalance(&load, &x, &q)) / size(&load);
-    let gap = programme.gap(&g, &q) / work.abs().max(f64::MIN_POSITIVE);
+    let imbalance = size(&program.imbalance(&load, &x, &q)) / size(&load);
+    let gap = program.gap(&g, &q) / work.abs().max(f64::MIN_POSITIVE);
     Ok(Solved { x, g, q, history, gap, imbalance, lambda })
 }
 
 impl<const D: usize, const N: usize> Iterate<'_, D, N> {
     /// One step; the relative change of the unknowns.
-    fn step(&mut self, law: &Regularisation) -> Result<f64, Stalled> {
-        let Self { programme, load, cholesky, values, still, x, g, q } = self;
-        values.copy_from_slice(&programme.base);
-        let per_block = programme.per_block;
-        for ((block, points), (g, q)) in programme.each().zip(g.chunks(per_block).zip(q.chunks(per_block))) {
+    fn step(&mut self, law: &Regularisation) -> Result<f64, Unsolved> {
+        let Self { program, load, cholesky, values, still, x, g, q } = self;
+        values.copy_from_slice(&program.base);
+        let per_block = program.per_block;
+        for ((block, points), (g, q)) in program.each().zip(g.chunks(per_block).zip(q.chunks(per_block))) {
             let mut local = [[0.0; N]; N];
             for ((point, g), q) in points.iter().zip(g).zip(q) {
                 let stiff = tangent(law, g, q);
@@ -185,13 +185,13 @@ impl<const D: usize, const N: usize> Iterate<'_, D, N> {
         }
         cholesky.factorise(values)?;
         let carried: Vec<[f64; D]> = g.iter().map(|g| g.map(|a| a / law.effective(length(g)).0)).collect();
-        let mut dx = programme.imbalance(load, x, &carried);
+        let mut dx = program.imbalance(load, x, &carried);
         cholesky.solve(&mut dx);
         let size = x.iter().zip(&dx).fold(*still, |m, (x, d)| m.max((x + d).abs()));
         let change = dx.iter().fold(0.0_f64, |m, d| m.max(d.abs())) / size;
         x.iter_mut().zip(&dx).for_each(|(x, d)| *x += d);
         let mut news = vec![[0.0; D]; g.len()];
-        programme.strains(x, &mut news);
+        program.strains(x, &mut news);
         for ((g, q), new) in g.iter_mut().zip(q.iter_mut()).zip(news) {
             let stiff = tangent(law, g, q);
             let m = law.effective(length(g)).0;

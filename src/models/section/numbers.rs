@@ -2,8 +2,9 @@
 
 use super::duct::{Divided, Filling};
 use super::element::quadratic;
-use super::programme::length;
+use super::program::length;
 use super::solve::Solution;
+use crate::models::exact::bed_results::Maximum;
 
 /// Velocity over the largest one below which material counts as being at rest.
 const REST: f64 = 1e-6;
@@ -21,8 +22,8 @@ pub struct Numbers {
     pub clear: f64,
     /// integral of the velocity of the grains over the bed
     pub grains: f64,
-    /// level and size of the largest velocity, on the symmetry plane
-    pub u_max: (f64, f64),
+    /// largest velocity, on the symmetry plane
+    pub u_max: Maximum,
     /// area that moves without shear
     pub plug: f64,
     /// area at rest
@@ -48,9 +49,9 @@ impl Numbers {
         let (mesh, x) = (&divided.mesh, &solution.solved.x);
         let (u, w) = (divided.velocity(x), divided.grains(x));
         let u_max = largest(divided, &u);
-        let Areas { plug, dead, unyielded, stress } = areas(solution, &w, REST * u_max.1);
+        let Areas { plug, dead, unyielded, stress } = areas(solution, &w, REST * u_max.value);
         let level = divided.duct.bed().unwrap_or(0.0);
-        let moves = divided.integral(&w, 0..mesh.bed_rows) > REST * u_max.1;
+        let moves = divided.integral(&w, 0..mesh.bed_rows) > REST * u_max.value;
         let mobile = match &solution.line {
             Some(line) => level - line[0],
             None if moves => level,
@@ -74,7 +75,7 @@ impl Numbers {
 }
 
 /// The largest velocity on the symmetry plane: top of the parabola through the largest node and its neighbours.
-fn largest(divided: &Divided, u: &[f64]) -> (f64, f64) {
+fn largest(divided: &Divided, u: &[f64]) -> Maximum {
     let mesh = &divided.mesh;
     let (_, up) = mesh.lines();
     let at = |j: usize| (mesh.position(mesh.node(0, j)).1, u[mesh.node(0, j)]);
@@ -83,10 +84,10 @@ fn largest(divided: &Divided, u: &[f64]) -> (f64, f64) {
     let (left, right) = ((b - a) / (zb - za), (c - b) / (zc - zb));
     let curvature = (right - left) / (zc - za);
     if curvature >= 0.0 {
-        return (zb, b);
+        return Maximum { level: zb, value: b };
     }
     let z = (0.5 * (za + zb) - 0.5 * left / curvature).clamp(za, zc);
-    (z, a + (z - za) * (left + curvature * (z - zb)))
+    Maximum { level: z, value: a + (z - za) * (left + curvature * (z - zb)) }
 }
 
 /// Derivative of the velocity along z on the symmetry plane, in row `row`, at `t` in -1..1 of its height.
@@ -136,7 +137,7 @@ struct Areas {
 /// yield stress; the stress of single points oscillates.
 fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
     let divided = &solution.divided;
-    let (programme, mesh, solved) = (&divided.programme, &divided.mesh, &solution.solved);
+    let (program, mesh, solved) = (&divided.program, &divided.mesh, &solution.solved);
     let viscosity = match divided.duct.filling {
         Filling::Bingham(_) => Some(1.0),
         Filling::Bed { e, k: None, .. } => Some(e),
@@ -148,7 +149,7 @@ fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
         let nodes = mesh.element(element);
         nodes.iter().for_each(|node| all[*node] += 1.0);
         let from = 9 * element;
-        let Some(yielding) = programme.points.get(from..from + 9) else {
+        let Some(yielding) = program.points.get(from..from + 9) else {
             nodes.iter().for_each(|node| ratio[*node] += LARGE);
             continue;
         };
@@ -176,13 +177,13 @@ fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
 
 /// Dissipation over the work of the drive, minus 1; 0 where nothing moves.
 fn power(solution: &Solution) -> f64 {
-    let (programme, solved) = (&solution.divided.programme, &solution.solved);
-    let mut kx = vec![0.0; programme.size()];
-    programme.pattern.multiply(&programme.base, &solved.x, &mut kx);
+    let (program, solved) = (&solution.divided.program, &solution.solved);
+    let mut kx = vec![0.0; program.size()];
+    program.pattern.multiply(&program.base, &solved.x, &mut kx);
     let viscous: f64 = kx.iter().zip(&solved.x).map(|(k, x)| k * x).sum();
-    let plastic: f64 = (programme.points.iter().zip(&solved.g).zip(&solved.q))
+    let plastic: f64 = (program.points.iter().zip(&solved.g).zip(&solved.q))
         .map(|((p, g), q)| p.carried * g.iter().zip(q).map(|(g, q)| g * q).sum::<f64>())
         .sum();
-    let work: f64 = programme.load.iter().zip(&solved.x).map(|(b, x)| b * x).sum();
+    let work: f64 = program.load.iter().zip(&solved.x).map(|(b, x)| b * x).sum();
     if work > 0.0 { (viscous + plastic) / work - 1.0 } else { 0.0 }
 }

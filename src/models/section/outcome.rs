@@ -6,7 +6,7 @@ use serde_json::{Map, json};
 
 use super::duct::{Duct, Filling};
 use super::full::Full;
-use super::newton::{self, Stalled};
+use super::newton::{self, Unsolved};
 use super::numbers::Numbers;
 use super::solve::Solution;
 use crate::closures::mixture_viscosity::RelativeViscosity;
@@ -21,19 +21,19 @@ use crate::result::{
 use crate::result::{Field, NumericalError};
 use crate::units::significant;
 
-impl Stalled {
+impl Unsolved {
     /// The reason in SI; `shear` is the unit of the shear rate [1/s].
     #[must_use]
     pub fn into_error(self, method: Method, shear: f64) -> SolveError {
         match self {
-            Self::Unsettled { change, iterations, lambda } if change.is_finite() => SectionError::Unsettled {
+            Self::NotConverged { change, iterations, lambda } if change.is_finite() => SectionError::NotConverged {
                 method: if method == Method::Newton { "newton" } else { "first-order" },
                 change,
                 iterations,
                 lambda_1_s: lambda * shear,
             }
             .into(),
-            Self::Unsettled { .. } => NumericalError::NotRepresentable { name: "the velocity".into() }.into(),
+            Self::NotConverged { .. } => NumericalError::NotRepresentable { name: "the velocity".into() }.into(),
             Self::Stopped | Self::Matrix(_) => NumericalError::NotRepresentable { name: "the matrix".into() }.into(),
         }
     }
@@ -48,7 +48,7 @@ impl Duct {
             Contents::Bed(bed) => Filling::Bed {
                 level: bed.h_p / bed.h,
                 e: bed.viscosity.relative(bed.phi),
-                hold: bed.friction.mu_s * bed.phi,
+                resistance: bed.friction.mu_s * bed.phi,
                 k: bed.drag.map(|law| law.permeability(bed.phi, bed.d / bed.h)),
             },
         };
@@ -59,26 +59,26 @@ impl Duct {
 /// Solves the duct on `cells` elements from the bottom to the top.
 ///
 /// # Errors
-/// [`SectionError::Unsettled`] if the method does not get there, [`NumericalError::NotRepresentable`] if numbers leave their range.
+/// [`SectionError::NotConverged`] if the method does not get there, [`NumericalError::NotRepresentable`] if numbers leave their range.
 pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let duct = Duct::scaled(flow);
     let law = &flow.regularisation;
-    let mut turns = 0_usize;
+    let mut iterations = 0_usize;
     let mut see = |unknowns: usize, change: f64| -> ControlFlow<()> {
-        turns += 1;
-        let stage = format!("iteration {turns}, {unknowns} unknowns, change {change:.1e}");
-        let fraction = 1.0 - 1.0 / (1.0 + 0.05 * turns as f64);
+        iterations += 1;
+        let stage = format!("iteration {iterations}, {unknowns} unknowns, change {change:.1e}");
+        let fraction = 1.0 - 1.0 / (1.0 + 0.05 * iterations as f64);
         watch.see(&Snapshot { stage: &stage, fraction, quantity: None })
     };
     let mut solution = match duct.solve(cells, law, &flow.solver, &mut see) {
-        Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
-        solution => solution.map_err(|stalled| failed(stalled, flow))?,
+        Err(Unsolved::Stopped) => return Ok(Outcome::stopped()),
+        solution => solution.map_err(|unsolved| failed(unsolved, flow))?,
     };
     let mut beside = Vec::new();
     if let Some(along) = flow.along {
         match draw_out(flow, along, &mut solution, &mut beside, &mut see) {
-            Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
-            done => done.map_err(|stalled| failed(stalled, flow))?,
+            Err(Unsolved::Stopped) => return Ok(Outcome::stopped()),
+            done => done.map_err(|unsolved| failed(unsolved, flow))?,
         }
     }
     let numbers = Numbers::of(&solution);
@@ -86,9 +86,9 @@ pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     beside.into_iter().for_each(|(quantity, value)| results.set(quantity, value));
     if !law.is_exact() && flow.along.is_none() {
         let mut see = |change: f64| see(solution.solved.x.len(), change);
-        match newton::solve(&solution.divided.programme, &Regularisation::EXACT, &mut see) {
-            Err(Stalled::Stopped) => return Ok(Outcome::stopped()),
-            Err(stalled) => return Err(failed(stalled, flow).into()),
+        match newton::solve(&solution.divided.program, &Regularisation::EXACT, &mut see) {
+            Err(Unsolved::Stopped) => return Ok(Outcome::stopped()),
+            Err(unsolved) => return Err(failed(unsolved, flow).into()),
             Ok(exact) => changed(&solution, &exact.x, &numbers, &mut results),
         }
     }
@@ -130,8 +130,8 @@ pub(super) fn history(changes: &[f64]) -> Result<Option<Series>, TableError> {
     Ok(Some(series))
 }
 
-fn failed(stalled: Stalled, flow: &DuctFlow) -> SolveError {
-    stalled.into_error(flow.solver.method, flow.shear_scale())
+fn failed(unsolved: Unsolved, flow: &DuctFlow) -> SolveError {
+    unsolved.into_error(flow.solver.method, flow.shear_scale())
 }
 
 fn results(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Results {
@@ -141,9 +141,9 @@ fn results(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Results {
     let mut results = Results::default();
     results.set(&q::FLOW_RATE, rate);
     results.set(&q::FLOW_RATE_DIMENSIONLESS, numbers.flow_rate);
-    results.set(&q::U_MAX, numbers.u_max.1 * shear * h);
-    results.set(&q::U_MAX_DIMENSIONLESS, numbers.u_max.1);
-    results.set(&q::U_MAX_LEVEL, numbers.u_max.0 * h);
+    results.set(&q::U_MAX, numbers.u_max.value * shear * h);
+    results.set(&q::U_MAX_DIMENSIONLESS, numbers.u_max.value);
+    results.set(&q::U_MAX_LEVEL, numbers.u_max.level * h);
     results.set(&q::MEAN_VELOCITY, rate / area);
     results.set(&q::DEAD_SHARE, numbers.dead / flow.outline.area());
     results.set(&q::FLOW_HEIGHT, h);
@@ -186,13 +186,13 @@ fn draw_out(
     solution: &mut Solution,
     results: &mut Vec<(&'static Quantity, f64)>,
     see: &mut dyn FnMut(usize, f64) -> ControlFlow<()>,
-) -> Result<(), Stalled> {
+) -> Result<(), Unsolved> {
     let weight = match &flow.contents {
         Contents::Bed(bed) => bed.phi,
         Contents::Bingham { .. } => 0.0,
     };
     let full = Full::new(&solution.divided, along, weight);
-    let unknowns = full.programme.size();
+    let unknowns = full.program.size();
     let whole = full.solve(&flow.regularisation, &mut |change| see(unknowns, change))?;
     let section = &solution.solved.x;
     let largest = section.iter().fold(0.0_f64, |m, u| m.max(*u)).max(f64::MIN_POSITIVE);
@@ -333,12 +333,12 @@ pub fn equations(flow: &DuctFlow) -> String {
              minimum    ∫ |∇u|²/2 + y |∇u| - f u  over the section,  u = 0 on the wall\n",
             n(y)
         ),
-        Filling::Bed { level, e, hold, k } => {
+        Filling::Bed { level, e, resistance, k } => {
             let bed = format!(
                 "bed        z < h_p = {} H,  viscosity e = {},  yield stress y = μ_s φ (h_p - z),  μ_s φ = {}\n",
                 n(level),
                 n(e),
-                n(hold)
+                n(resistance)
             );
             bed + &match k {
                 None => "minimum    ∫ e |∇u|²/2 + y |∇u| - f u  over the section,  u = 0 on the wall\n".into(),

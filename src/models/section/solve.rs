@@ -5,15 +5,15 @@ use std::ops::ControlFlow;
 use super::duct::{Divided, Duct, Filling};
 use super::fit::along;
 use super::mesh::Mesh;
-use super::newton::{Solved, Stalled};
+use super::newton::{Solved, Unsolved};
 use super::{dual, newton};
 use crate::closures::regularisation::Regularisation;
 use crate::models::section::{Method, Outline, SectionMethod};
 
 /// Rows of the coarsest mesh on which the yield surface is looked for.
 const COARSEST: usize = 24;
-/// Turns of solving and dividing on the coarsest mesh; on the others one is enough.
-const TURNS: usize = 3;
+/// Iterations of solving and dividing on the coarsest mesh; on the others one is enough.
+const DIVISIONS: usize = 3;
 
 /// A solved duct.
 #[derive(Clone, Debug)]
@@ -43,24 +43,24 @@ impl Duct {
     /// each iteration.
     ///
     /// # Errors
-    /// [`Stalled`].
+    /// [`Unsolved`].
     pub fn solve(
         &self,
         rows: usize,
         law: &Regularisation,
         how: &SectionMethod,
         see: &mut dyn FnMut(usize, f64) -> ControlFlow<()>,
-    ) -> Result<Solution, Stalled> {
+    ) -> Result<Solution, Unsolved> {
         let mut iterations = 0;
-        let mut on = |rows: usize, line: Option<&[f64]>, last: bool| -> Result<Solution, Stalled> {
+        let mut on = |rows: usize, line: Option<&[f64]>, last: bool| -> Result<Solution, Unsolved> {
             let divided = self.divide(self.columns(rows), rows, how.finest, line);
-            let n = divided.programme.size();
+            let n = divided.program.size();
             let mut see = |change: f64| see(n, change);
             let solved = match how.method {
                 // The mesh follows the exact yield surface, whatever the law.
-                _ if !last => newton::solve(&divided.programme, &Regularisation::EXACT, &mut see)?,
-                Method::Newton => newton::solve(&divided.programme, law, &mut see)?,
-                Method::FirstOrder => dual::solve(&divided.programme, how.tolerance, how.iterations, &mut see)?,
+                _ if !last => newton::solve(&divided.program, &Regularisation::EXACT, &mut see)?,
+                Method::Newton => newton::solve(&divided.program, law, &mut see)?,
+                Method::FirstOrder => dual::solve(&divided.program, how.tolerance, how.iterations, &mut see)?,
             };
             iterations += solved.history.len();
             let line = if law.is_exact() || !last {
@@ -81,11 +81,11 @@ impl Duct {
         }
         let mut line: Option<(Vec<f64>, Vec<f64>)> = None;
         for (k, n) in meshes.iter().enumerate().rev() {
-            let turns = if k + 1 == meshes.len() { TURNS + usize::from(k == 0) } else { 1 };
-            for turn in 0..turns {
+            let iterations = if k + 1 == meshes.len() { DIVISIONS + usize::from(k == 0) } else { 1 };
+            for iteration in 0..iterations {
                 let eta = Mesh::columns_at(self.columns(*n), how.finest);
                 let here = line.as_ref().map(|(from, line)| along(from, line, &eta));
-                let last = k == 0 && turn + 1 == turns;
+                let last = k == 0 && iteration + 1 == iterations;
                 let solution = on(*n, here.as_deref(), last)?;
                 if last {
                     return Ok(solution);

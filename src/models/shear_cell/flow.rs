@@ -23,7 +23,7 @@ use crate::result::SolveError;
 const LONGEST: f64 = 1.0;
 /// Change after which no step follows, and most iterations.
 const TOLERANCE: f64 = 1e-11;
-const MOST: usize = 200;
+const MAX_ITERATIONS: usize = 200;
 
 /// The flow between the nodes k and k + 1, or in one node: derivatives by phi below, phi above, p, tau.
 type D = Dual<4>;
@@ -108,7 +108,7 @@ impl Flow {
     /// [`NumericalError::NotConverged`](crate::result::NumericalError::NotConverged).
     pub fn solve(mut self) -> Result<Self, SolveError> {
         let mut least = f64::INFINITY;
-        for _ in 0..MOST {
+        for _ in 0..MAX_ITERATIONS {
             let Some(change) = self.step() else { break };
             self.history.push(change);
             least = least.min(change);

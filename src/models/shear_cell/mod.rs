@@ -1,4 +1,4 @@
-//! Grains that collide between two walls, without fluid or gravity: what is said of the flow that `flow` solves.
+//! Grains that collide between two walls, without fluid or gravity: what is reported of the flow that `flow` solves.
 
 pub mod case;
 mod flow;
@@ -25,9 +25,9 @@ fn run(cell: &ShearCell, cells: usize, watch: &mut dyn Watch) -> Result<Outcome,
     let flow = guess(cell, cells).solve()?;
     let [work, entering, lost] = flow.energies();
     let scale = work.abs().max(entering.abs()).max(lost.abs()).max(f64::MIN_POSITIVE);
-    let held: f64 = flow.states().windows(2).map(|pair| 0.5 * (pair[0].phi + pair[1].phi)).sum();
+    let solids: f64 = flow.states().windows(2).map(|pair| 0.5 * (pair[0].phi + pair[1].phi)).sum();
     let balances = vec![
-        balance("solids", held / cells as f64 / cell.phi - 1.0, "grains against those that are wanted"),
+        balance("solids", solids / cells as f64 / cell.phi - 1.0, "grains against those that are wanted"),
         balance(
             "fluctuation_energy",
             (work + entering - lost) / scale,

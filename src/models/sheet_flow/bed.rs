@@ -50,7 +50,7 @@ impl State {
         self.x.get(STRIDE * j + 1).copied().unwrap_or(0.0)
     }
 
-    /// Decompaction: height of what lies below node `j` beyond that of the same grains at rest.
+    /// Dilation: height of what lies below node `j` beyond that of the same grains at rest.
     #[must_use]
     pub fn d(&self, j: usize) -> f64 {
         self.x.get(STRIDE * j + 2).copied().unwrap_or(0.0)
@@ -183,7 +183,7 @@ pub(super) fn momentum<T: Real, F: FrictionLaw>(
     (mixture, grains)
 }
 
-/// What the velocities and the decompaction lose across a cell: of the grains, the slip, the decompaction.
+/// What the velocities and the dilation lose across a cell: of the grains, the slip, the dilation.
 pub(super) fn losses<T: Real, F: FrictionLaw>(flow: &Flow<F>, cell: &Cell<T>) -> [T; 3] {
     let strain = cell.gamma * cell.dz;
     [strain, cell.rate * cell.dz - strain, cell.dz - cell.dm / flow.dilatancy.phi_max]

@@ -205,10 +205,10 @@ pub struct SheetSolver {
     #[serde(default = "tolerance")]
     #[schemars(extend("x-unit" = "1", "minimum" = 1e-12, "maximum" = 1e-3))]
     pub tolerance: f64,
-    /// Turns after which the iteration gives up.
-    #[serde(default = "turns")]
+    /// Iterations after which the method gives up.
+    #[serde(rename = "turns", default = "max_iterations")]
     #[schemars(extend("minimum" = 1, "maximum" = 100_000_000))]
-    pub turns: usize,
+    pub max_iterations: usize,
 }
 
 fn time_step() -> f64 {
@@ -219,13 +219,13 @@ fn tolerance() -> f64 {
     1e-9
 }
 
-fn turns() -> usize {
+fn max_iterations() -> usize {
     200_000
 }
 
 impl Default for SheetSolver {
     fn default() -> Self {
-        Self { time_step: time_step(), tolerance: tolerance(), turns: turns() }
+        Self { time_step: time_step(), tolerance: tolerance(), max_iterations: max_iterations() }
     }
 }
 

@@ -27,7 +27,7 @@ pub struct Setting {
     pub reading: BedReading,
 }
 
-/// Inputs of the layers above: phi, decompaction and velocity at the interface, tau_b, sine, m, and the volume at rest.
+/// Inputs of the layers above: phi, dilation and velocity at the interface, tau_b, sine, m, and the volume at rest.
 const INPUTS: usize = 7;
 
 /// The four equations that close the column, with their derivatives.
@@ -101,7 +101,7 @@ impl Setting {
         }
     }
 
-    /// The closing equations for phi, decompaction and velocity at the interface, and tau_b, sine, m, rest; but the last.
+    /// The closing equations for phi, dilation and velocity at the interface, and tau_b, sine, m, rest; but the last.
     fn equations<T: Real, F: FrictionLaw>(
         &self,
         flow: &Flow<F>,

@@ -61,9 +61,9 @@ pub enum SheetFlowError {
     },
     /// A solution of the discrete equations that is none of the flow.
     #[error(
-        "only a solution with locked grains was found: where they come to rest they carry {carried:.4} of the stress, and the viscosity of packed grains the rest"
+        "only a solution with jammed grains was found: where they come to rest they carry {carried:.4} of the stress, and the viscosity of packed grains the rest"
     )]
-    Locked {
+    Jammed {
         /// share of the stress
         carried: f64,
     },
@@ -107,7 +107,7 @@ pub enum SheetFlowError {
 
 codes!(SheetFlowError {
     Self::NothingAtRest { .. } => "nothing-at-rest",
-    Self::Locked { .. } => "locked",
+    Self::Jammed { .. } => "locked",
     Self::BedSuspended { .. } => "bed-suspended",
     Self::BedRunsAway { .. } => "bed-runs-away",
     Self::LidPushes { .. } => "lid-pushes",
@@ -121,7 +121,7 @@ impl MethodError for SheetFlowError {
 
     fn class(&self) -> Class {
         match self {
-            Self::Locked { .. } => Class::NotConverged,
+            Self::Jammed { .. } => Class::NotConverged,
             Self::ChangeOfType { .. } => Class::Refused,
             Self::NothingAtRest { .. }
             | Self::BedSuspended { .. }
@@ -133,7 +133,7 @@ impl MethodError for SheetFlowError {
     fn hint(&self) -> String {
         match self {
             Self::NothingAtRest { .. } => "lower the drive or the slope, or make the bed deeper (bed.level)",
-            Self::Locked { .. } => {
+            Self::Jammed { .. } => {
                 "raise the Shields number: hardly a grain moves; or lower it, if the bed is about to move as a whole"
             }
             Self::BedSuspended { .. } => {

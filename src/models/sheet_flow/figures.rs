@@ -17,26 +17,27 @@ pub(super) fn figures(name: &str, outcome: &Outcome) -> Vec<Figure> {
     ) else {
         return Vec::new();
     };
-    let scene = Scene { profile, z: profile.axis(), bottom, thickness };
+    let sheet = Sheet { profile, z: profile.axis(), bottom, thickness };
     // The stress of the interface, where the grains carry none.
-    let interface = scene.z.iter().position(|&z| z >= bottom + thickness);
-    let tau_b = interface.and_then(|row| scene.total(row + 1)).filter(|tau| *tau > 0.0);
+    let interface = sheet.z.iter().position(|&z| z >= bottom + thickness);
+    let tau_b = interface.and_then(|row| sheet.total(row + 1)).filter(|tau| *tau > 0.0);
     let mut figures = Vec::new();
     if let Some(tau_b) = tau_b {
-        figures.push(scene.repartition(name, tau_b));
+        figures.push(sheet.repartition(name, tau_b));
     }
-    figures.extend(scene.regimes(name, shields));
+    figures.extend(sheet.regimes(name, shields));
     figures
 }
 
-struct Scene<'a> {
+/// The moving layer, in the levels of the profile.
+struct Sheet<'a> {
     profile: &'a Profile,
     z: Vec<f64>,
     bottom: f64,
     thickness: f64,
 }
 
-impl Scene<'_> {
+impl Sheet<'_> {
     fn at(&self, quantity: &Quantity, row: usize) -> Option<f64> {
         self.profile.get(quantity)?.get(row).copied().flatten()
     }

@@ -75,7 +75,7 @@ pub struct Unknowns<T> {
     pub s: T,
     /// slip U - u_p, mean of the nodes above and below
     pub w: T,
-    /// decompaction, mean of the nodes above and below
+    /// dilation, mean of the nodes above and below
     pub d: T,
     /// solid volume per area of the cells
     pub m: T,
@@ -127,7 +127,7 @@ impl<F: FrictionLaw> Flow<F> {
         sine * ((1.0 + self.delta) / self.delta)
     }
 
-    /// Mixing length above the solid volume `below`, for the decompaction `d` of what lies there.
+    /// Mixing length above the solid volume `below`, for the dilation `d` of what lies there.
     #[must_use]
     pub fn mixing_length<T: Real>(&self, d: T, below: T) -> T {
         let rest = 1.0 / self.dilatancy.phi_max - 1.0 / self.phi_l;

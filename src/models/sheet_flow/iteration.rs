@@ -1,9 +1,9 @@
 //! The iteration of Revil-Baudard & Chauchat (2013), Appendix B, on the discrete equations of the Newton method.
 //!
-//! Each turn: the fluid layer for the stress, slope and interface of the turn before (steps 1 and 2), the amount of grains
+//! Each iteration: the fluid layer for the stress, slope and interface of the iteration before (steps 1 and 2), the amount of grains
 //! that it leaves in the bed (step 3), the particle pressure (step 4), one implicit step of pseudo-time for both velocities
-//! with the coefficients of the turn before (step 5), the solid fraction by the dilatancy law (step 6) and cells that keep
-//! their grains (step 7). Two things differ: the fluid layer is taken at its steady state in every turn, which is never slower
+//! with the coefficients of the iteration before (step 5), the solid fraction by the dilatancy law (step 6) and cells that keep
+//! their grains (step 7). Two things differ: the fluid layer is taken at its steady state in every iteration, which is never slower
 //! than relaxing it, and the grains that the suspension takes come from all cells in proportion, since equal parts would
 //! empty the thin cells at the interface.
 
@@ -11,7 +11,7 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::bed::{self, STRIDE, State, Weights};
 use super::column::interface_weights;
-use super::newton::{Column, Stalled};
+use super::newton::{Column, NotConverged};
 use super::suspension::march;
 use crate::closures::friction::FrictionLaw;
 use crate::closures::lid::Lid;
@@ -22,21 +22,21 @@ use crate::numerics::block_thomas::{self, Row};
 
 /// How the iteration goes on, and when it ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pace {
+pub struct StepControl {
     /// step of pseudo-time, scaled
     pub dt: f64,
     /// relative residual at which it has converged
     pub tolerance: f64,
-    /// turns before giving up
-    pub most: usize,
+    /// iterations before giving up
+    pub max_iterations: usize,
 }
 
-/// Turns between two looks at the residual.
+/// Iterations between two looks at the residual.
 const LOOK: usize = 20;
-/// Largest change of the amount of grains and of the stress in one turn, relative to them.
+/// Largest change of the amount of grains and of the stress in one iteration, relative to them.
 const CHANGE: f64 = 0.1;
 
-/// Coefficients of a cell, those of the turn before.
+/// Coefficients of a cell, those of the iteration before.
 #[derive(Clone, Copy)]
 struct Lagged {
     dz: f64,
@@ -52,43 +52,43 @@ impl<F: FrictionLaw> Column<F> {
     /// Iterates from rest, or from `state`; the residuals go to `history`, and `stop` may end it.
     ///
     /// # Errors
-    /// [`Stalled`] if it diverges, or does not converge in time.
+    /// [`NotConverged`] if it diverges, or does not converge in time.
     pub fn iterate(
         &self,
         mut state: State,
-        pace: &Pace,
+        control: &StepControl,
         history: &mut Vec<f64>,
         mut stop: impl FnMut(usize, f64) -> bool,
-    ) -> Result<State, Stalled> {
+    ) -> Result<State, NotConverged> {
         let mut cells = self.lagged(&mut state);
         let mut residual = vec![0.0; STRIDE * self.mesh.cells()];
         let mut smallest = f64::INFINITY;
-        for turn in 0..pace.most {
-            if self.turn(&mut state, &mut cells, pace.dt).is_none() {
-                return Err(Stalled::new(smallest, turn));
+        for iteration in 0..control.max_iterations {
+            if self.step(&mut state, &mut cells, control.dt).is_none() {
+                return Err(NotConverged::new(smallest, iteration));
             }
-            if turn % LOOK == 0 {
+            if iteration % LOOK == 0 {
                 bed::residual(&self.flow, &self.mesh, &state, &mut residual);
                 let closing = self.setting.closing_residual(self, &state);
                 let norm = self.norm(&residual, &closing, &state);
                 history.push(norm);
                 smallest = smallest.min(norm);
-                if norm <= pace.tolerance {
+                if norm <= control.tolerance {
                     return Ok(state);
                 }
-                if !norm.is_finite() || stop(turn, norm) {
-                    return Err(Stalled::new(smallest, turn));
+                if !norm.is_finite() || stop(iteration, norm) {
+                    return Err(NotConverged::new(smallest, iteration));
                 }
             }
         }
-        Err(Stalled::new(smallest, pace.most))
+        Err(NotConverged::new(smallest, control.max_iterations))
     }
 
-    /// The state after all turns of `pace`; `None` if a system is singular.
+    /// The state after the most iterations that `control` allows; `None` if a system is singular.
     #[must_use]
-    pub fn turns(&self, mut state: State, pace: &Pace) -> Option<State> {
+    pub fn iterate_for(&self, mut state: State, control: &StepControl) -> Option<State> {
         let mut cells = self.lagged(&mut state);
-        (0..pace.most).try_for_each(|_| self.turn(&mut state, &mut cells, pace.dt))?;
+        (0..control.max_iterations).try_for_each(|_| self.step(&mut state, &mut cells, control.dt))?;
         Some(state)
     }
 
@@ -96,8 +96,8 @@ impl<F: FrictionLaw> Column<F> {
         (0..self.mesh.cells()).map(|c| self.lag(state, c)).collect()
     }
 
-    /// One turn of the iteration.
-    fn turn(&self, state: &mut State, cells: &mut [Lagged], dt: f64) -> Option<()> {
+    /// One iteration.
+    fn step(&self, state: &mut State, cells: &mut [Lagged], dt: f64) -> Option<()> {
         self.exchange(state);
         self.velocities(state, cells, dt)?;
         for c in (0..cells.len()).rev() {
@@ -106,7 +106,7 @@ impl<F: FrictionLaw> Column<F> {
         Some(())
     }
 
-    /// Laws in cell `c` from the velocities: sets its friction, stress and decompaction, and gives its coefficients.
+    /// Laws in cell `c` from the velocities: sets its friction, stress and dilation, and gives its coefficients.
     fn lag(&self, state: &mut State, c: usize) -> Lagged {
         let flow = &self.flow;
         let old = bed::cell(flow, &self.mesh, state, c);
@@ -114,7 +114,7 @@ impl<F: FrictionLaw> Column<F> {
         let strain = state.u(c) - state.u(c + 1);
         let shear = strain + state.w(c) - state.w(c + 1);
         let rate = flow.rearrangement.rate(&flow.grain(), old.pressure, 0.5 * (state.w(c) + state.w(c + 1)));
-        // The height follows from the solid fraction, which follows from the shear rate over that height: one sweep a turn.
+        // The height follows from the solid fraction, which follows from the shear rate over that height: one sweep an iteration.
         let speed = strain.abs() / old.dz;
         let inertia = if rate > 0.0 { speed / rate } else { 0.0 };
         let phi = flow.dilatancy.solid_fraction(inertia);
@@ -136,7 +136,7 @@ impl<F: FrictionLaw> Column<F> {
         }
     }
 
-    /// Steps 1 to 4: stress on the interface, slope and amount of grains from the interface of the turn before.
+    /// Steps 1 to 4: stress on the interface, slope and amount of grains from the interface of the iteration before.
     fn exchange(&self, state: &mut State) {
         let (flow, setting) = (&self.flow, &self.setting);
         let h_p = state.m / flow.dilatancy.phi_max + state.d(0);

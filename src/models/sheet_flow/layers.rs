@@ -49,8 +49,10 @@ pub struct Sheet {
     pub crossover: Option<f64>,
     /// largest viscous share of the stress in its upper half
     pub viscous_share: f64,
-    /// parts of its solid volume in free and in turbulent fall
-    pub falls: (f64, f64),
+    /// part of its solid volume in free fall
+    pub free_fall: f64,
+    /// part of its solid volume in turbulent fall
+    pub turbulent_fall: f64,
 }
 
 impl Layers {
@@ -135,8 +137,9 @@ impl Layers {
         let half = 0.5 * (bottom + self.z[0]);
         let viscous = |c: usize| self.cells[c].tau_f / (self.cells[c].tau_p + self.s[c]);
         let viscous_share = (0..n).filter(|&c| self.middle(c) > half).map(viscous).fold(0.0, f64::max);
-        let falls = (0.0 + mass(Regime::FreeFall) / of_moving, 0.0 + mass(Regime::Turbulent) / of_moving);
-        Some(Sheet { bottom, volume, crossover, viscous_share, falls })
+        let [free_fall, turbulent_fall] =
+            [Regime::FreeFall, Regime::Turbulent].map(|regime| 0.0 + mass(regime) / of_moving);
+        Some(Sheet { bottom, volume, crossover, viscous_share, free_fall, turbulent_fall })
     }
 
     /// Height of the part of cell `c` that is above `z`.

@@ -42,9 +42,9 @@ impl Mesh {
                 }
                 let next = y - miss / slope;
                 let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-                let settled = (next - y).abs() <= 4.0 * f64::EPSILON;
+                let converged = (next - y).abs() <= 4.0 * f64::EPSILON;
                 y = next;
-                if settled {
+                if converged {
                     break;
                 }
             }

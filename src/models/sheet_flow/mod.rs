@@ -38,8 +38,8 @@ pub use problem::SheetFlow;
 pub mod bench {
     pub use super::column::Setting;
     pub use super::flow::Flow;
-    pub use super::iteration::Pace;
+    pub use super::iteration::StepControl;
     pub use super::layers::Layers;
-    pub use super::newton::{Column, Stalled};
+    pub use super::newton::{Column, NotConverged};
     pub use super::solve::{REST, solve};
 }

@@ -26,9 +26,9 @@ pub struct Column<F = MuI> {
     pub floor: Floor,
 }
 
-/// A Newton iteration that went nowhere.
+/// A method that has not converged.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stalled {
+pub struct NotConverged {
     /// smallest residual
     pub residual: f64,
     /// iterations made
@@ -45,11 +45,11 @@ pub enum Reason {
     /// all grains move, down to the bottom
     AllMove,
     /// packed grains that are taken for moving ones: they carry this share of the stress where they come to rest
-    Locked(f64),
+    Jammed(f64),
 }
 
-impl Stalled {
-    /// A method that went nowhere.
+impl NotConverged {
+    /// A method that has not converged, for a reason that is not known.
     #[must_use]
     pub fn new(residual: f64, iterations: usize) -> Self {
         Self { residual, iterations, reason: None }
@@ -57,7 +57,7 @@ impl Stalled {
 }
 
 /// Iterations before giving up.
-const MOST: usize = 100;
+const MAX_ITERATIONS: usize = 100;
 /// Relative residual below which a step more is one of round-off.
 pub const TOLERANCE: f64 = 1e-12;
 /// Halvings of a step.
@@ -79,20 +79,20 @@ impl<F: FrictionLaw> Column<F> {
     /// Solves from `state`; the residuals go to `history`.
     ///
     /// # Errors
-    /// [`Stalled`] if the residual does not reach round-off.
-    pub fn newton(&self, state: State, history: &mut Vec<f64>) -> Result<State, Stalled> {
+    /// [`NotConverged`] if the residual does not reach round-off.
+    pub fn newton(&self, state: State, history: &mut Vec<f64>) -> Result<State, NotConverged> {
         self.newton_to(state, TOLERANCE, history)
     }
 
     /// As [`Column::newton`], to the relative residual `tolerance`.
     ///
     /// # Errors
-    /// [`Stalled`] if the residual does not get there.
-    pub fn newton_to(&self, mut state: State, tolerance: f64, history: &mut Vec<f64>) -> Result<State, Stalled> {
+    /// [`NotConverged`] if the residual does not get there.
+    pub fn newton_to(&self, mut state: State, tolerance: f64, history: &mut Vec<f64>) -> Result<State, NotConverged> {
         let mut system = Linearised::new(self.mesh.cells());
         let mut scratch = vec![0.0; STRIDE * self.mesh.cells()];
         let (mut best, mut without) = ((f64::INFINITY, state.clone()), 0);
-        for iteration in 0..MOST {
+        for iteration in 0..MAX_ITERATIONS {
             let cells = self.local_cells(&state);
             system.fill(&self.flow, &self.mesh, &state, &cells);
             let closing = self.setting.closing(self, &state, &cells);
@@ -115,10 +115,10 @@ impl<F: FrictionLaw> Column<F> {
             state = next;
             without = if decreased { 0 } else { without + 1 };
             if without > PATIENCE {
-                return Err(Stalled::new(best.0, iteration));
+                return Err(NotConverged::new(best.0, iteration));
             }
         }
-        if best.0 <= tolerance { Ok(best.1) } else { Err(Stalled::new(best.0, history.len())) }
+        if best.0 <= tolerance { Ok(best.1) } else { Err(NotConverged::new(best.0, history.len())) }
     }
 
     /// Scales of the rows of a node and its cell, then of the closing equations.

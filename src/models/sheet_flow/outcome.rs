@@ -4,9 +4,10 @@ use serde_json::json;
 
 use super::column::{Floor, Setting};
 use super::flow::Flow;
-use super::iteration::Pace;
+use super::iteration::StepControl;
 use super::layers::Layers;
-use super::newton::{Reason, Stalled};
+use super::newton::{NotConverged, Reason};
+use super::problem::PseudoTime;
 use super::profile::profile;
 use super::solve::{self, Solved};
 use crate::closures::dilatancy::phi_i;
@@ -47,13 +48,14 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     }
     let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
     let solved = match sheet.method {
-        _ if stopped => Err(Stalled::new(f64::INFINITY, 0)),
+        _ if stopped => Err(NotConverged::new(f64::INFINITY, 0)),
         SheetMethod::Newton => solve::solve(flow, setting, cells),
         SheetMethod::Iteration => {
-            let (dt, tolerance, most) = sheet.pace;
-            let pace = Pace { dt: dt * sheet.velocity_scale() / sheet.d, tolerance, most };
-            solve::iterate(flow, setting, cells, &pace, |turn, _| {
-                let fraction = turn as f64 / most as f64;
+            let PseudoTime { step, tolerance, max_iterations } = sheet.pseudo_time;
+            let dt = step * sheet.velocity_scale() / sheet.d;
+            let control = StepControl { dt, tolerance, max_iterations };
+            solve::iterate(flow, setting, cells, &control, |iteration, _| {
+                let fraction = iteration as f64 / max_iterations as f64;
                 stopped = watch.see(&Snapshot { stage: "iteration", fraction, quantity: None }).is_break();
                 stopped
             })
@@ -62,7 +64,7 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     if stopped {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
     }
-    let solved = solved.map_err(|stalled| unsolved(sheet, &flow, &setting, stalled))?;
+    let solved = solved.map_err(|failed| unsolved(sheet, &flow, &setting, failed))?;
     if !sheet.deepen_cut && solved.change_of_type * sheet.d > sheet.cut {
         return Err(SheetFlowError::ChangeOfType { depth_m: solved.change_of_type * sheet.d, cut_m: sheet.cut }.into());
     }
@@ -79,8 +81,13 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
 }
 
 /// Why the method found nothing: no bed at rest can exist, or it failed.
-fn unsolved<F: FrictionLaw>(sheet: &SheetFlow<F>, flow: &Flow<F>, setting: &Setting, stalled: Stalled) -> SolveError {
-    match stalled.reason {
+fn unsolved<F: FrictionLaw>(
+    sheet: &SheetFlow<F>,
+    flow: &Flow<F>,
+    setting: &Setting,
+    failed: NotConverged,
+) -> SolveError {
+    match failed.reason {
         Some(Reason::RunsAway(level)) => {
             return SheetFlowError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d }.into();
         }
@@ -91,7 +98,7 @@ fn unsolved<F: FrictionLaw>(sheet: &SheetFlow<F>, flow: &Flow<F>, setting: &Sett
             });
             return SheetFlowError::NothingAtRest { bed_m: sheet.level, shields: tau_b }.into();
         }
-        Some(Reason::Locked(carried)) => return SheetFlowError::Locked { carried }.into(),
+        Some(Reason::Jammed(carried)) => return SheetFlowError::Jammed { carried }.into(),
         None => {}
     }
     // The stress of the interface alone needs this much weight of grains to be held.
@@ -111,7 +118,7 @@ fn unsolved<F: FrictionLaw>(sheet: &SheetFlow<F>, flow: &Flow<F>, setting: &Sett
             return BedError::NoStaticBed { drive, limit: flow.friction.least() * cosine }.into();
         }
     }
-    SolveError::not_converged(stalled.residual, stalled.iterations)
+    SolveError::not_converged(failed.residual, failed.iterations)
 }
 
 /// Refuses a solution of the equations that is none of the flow.
@@ -201,15 +208,15 @@ fn sheet_results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layer
         return;
     }
     let cosine = (1.0 - state.sine * state.sine).sqrt();
-    let hold = flow.friction.least() * phi;
+    let resistance = flow.friction.least() * phi;
     results.set(&q::SHEET_THICKNESS, thickness * d);
-    let net = hold * cosine - (1.0 / flow.delta + phi) * state.sine;
+    let net = resistance * cosine - (1.0 / flow.delta + phi) * state.sine;
     if net > 0.0 {
         results.set(&q::SHEET_THICKNESS_FULL, state.tau_b / net * d);
     } else {
         results.undefined(&q::SHEET_THICKNESS_FULL, "the slope is more than the friction of grains at rest holds");
     }
-    results.set(&q::SHEET_THICKNESS_FLAT, state.tau_b / hold * d);
+    results.set(&q::SHEET_THICKNESS_FLAT, state.tau_b / resistance * d);
     results.set(&q::SHEET_PHI, phi);
     results.set(&q::YIELD_LEVEL, moving.bottom * d);
     match moving.crossover {
@@ -217,8 +224,8 @@ fn sheet_results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layer
         None => results.undefined(&q::STRESS_CROSSOVER, "grains and fluid carry equal stresses nowhere"),
     }
     results.set(&q::VISCOUS_SHARE, moving.viscous_share);
-    results.set(&q::FREE_FALL_SHARE, moving.falls.0);
-    results.set(&q::TURBULENT_SHARE, moving.falls.1);
+    results.set(&q::FREE_FALL_SHARE, moving.free_fall);
+    results.set(&q::TURBULENT_SHARE, moving.turbulent_fall);
 }
 
 fn balances<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Balance> {

@@ -25,6 +25,17 @@ use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
 use crate::units::significant;
 
+/// How the pseudo-time iteration steps, and when it ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PseudoTime {
+    /// step \[s]
+    pub step: f64,
+    /// relative residual at which it has converged
+    pub tolerance: f64,
+    /// iterations before giving up
+    pub max_iterations: usize,
+}
+
 /// A sheet flow. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SheetFlow<F = MuI> {
@@ -72,8 +83,8 @@ pub struct SheetFlow<F = MuI> {
     pub deepen_cut: bool,
     /// how it is solved
     pub method: SheetMethod,
-    /// step of pseudo-time \[s], relative residual and number of turns of the iteration
-    pub pace: (f64, f64, usize),
+    /// how the pseudo-time iteration steps and when it ends
+    pub pseudo_time: PseudoTime,
 }
 
 impl<F: FrictionLaw> SheetFlow<F> {
@@ -184,7 +195,11 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             cut: regularisation.interface_cut * grains.diameter,
             deepen_cut: regularisation.deepen_cut,
             method: tables.model.method,
-            pace: (solver.time_step, solver.tolerance, solver.turns),
+            pseudo_time: PseudoTime {
+                step: solver.time_step,
+                tolerance: solver.tolerance,
+                max_iterations: solver.max_iterations,
+            },
         };
         Some(Self { problem, cells: tables.grid.cells })
     }

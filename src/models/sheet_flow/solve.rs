@@ -4,26 +4,46 @@
 use super::bed::{STRIDE, State};
 use super::column::{Floor, Setting};
 use super::flow::Flow;
-use super::iteration::Pace;
+use super::iteration::StepControl;
 use super::mesh::Mesh;
-use super::newton::{Column, Reason, Stalled};
+use super::newton::{Column, NotConverged, Reason};
 use super::start::{Guess, TOP, mobile_volume};
 use crate::closures::friction::{FrictionLaw, MuI};
 use crate::models::sheet_flow::BedReading;
 
-/// Cells of the coarse mesh, and share of the range of the friction at which the first guess lets the grains shear; tried in
-/// turn: on meshes of the moving grains, then on those of the whole bed, where the yield level finds itself.
-const TRIALS: [(Floor, usize, f64); 10] = [
-    (Floor::Yield, 60, 0.8),
-    (Floor::Yield, 60, 0.9),
-    (Floor::Bottom, 80, 0.8),
-    (Floor::Bottom, 80, 0.9),
-    (Floor::Bottom, 80, 0.6),
-    (Floor::Bottom, 50, 0.8),
-    (Floor::Bottom, 120, 0.8),
-    (Floor::Bottom, 120, 0.5),
-    (Floor::Bottom, 200, 0.7),
-    (Floor::Bottom, 160, 0.9),
+/// A coarse mesh and the first guess on it.
+#[derive(Clone, Copy)]
+struct CoarseGuess {
+    floor: Floor,
+    cells: usize,
+    /// share of the range of the friction at which the grains shear
+    friction: f64,
+}
+
+impl CoarseGuess {
+    const fn new(floor: Floor, cells: usize, friction: f64) -> Self {
+        Self { floor, cells, friction }
+    }
+
+    /// The column on this mesh, of `cells` cells at most, with its state.
+    fn start<F: FrictionLaw>(self, flow: Flow<F>, setting: Setting, cells: usize) -> (Column<F>, State) {
+        let Self { floor, cells: own, friction } = self;
+        Column::start(flow, setting, own.min(cells), Guess { floor, friction, mobile: None })
+    }
+}
+
+/// Tried in turn: on meshes of the moving grains, then on those of the whole bed, where the yield level finds itself.
+const GUESSES: [CoarseGuess; 10] = [
+    CoarseGuess::new(Floor::Yield, 60, 0.8),
+    CoarseGuess::new(Floor::Yield, 60, 0.9),
+    CoarseGuess::new(Floor::Bottom, 80, 0.8),
+    CoarseGuess::new(Floor::Bottom, 80, 0.9),
+    CoarseGuess::new(Floor::Bottom, 80, 0.6),
+    CoarseGuess::new(Floor::Bottom, 50, 0.8),
+    CoarseGuess::new(Floor::Bottom, 120, 0.8),
+    CoarseGuess::new(Floor::Bottom, 120, 0.5),
+    CoarseGuess::new(Floor::Bottom, 200, 0.7),
+    CoarseGuess::new(Floor::Bottom, 160, 0.9),
 ];
 /// The first guess of the iteration.
 pub const REST: Guess = Guess { floor: Floor::Bottom, friction: 0.8, mobile: None };
@@ -43,8 +63,8 @@ const ROUNDING: f64 = 0.02;
 const BEYOND: f64 = 1.2;
 /// Slip of the first guess in grains that creep, in units of the largest slip.
 const SEEPAGE: f64 = 1e-4;
-/// Regularisation, scaled, and pace of the iteration where no first guess of Newton's method leads anywhere.
-const DETOUR: (f64, Pace) = (1e-5, Pace { dt: 1.0, tolerance: 1e-6, most: 20_000 });
+/// Regularisation, scaled, and step control of the iteration where no first guess of Newton's method leads anywhere.
+const DETOUR: (f64, StepControl) = (1e-5, StepControl { dt: 1.0, tolerance: 1e-6, max_iterations: 20_000 });
 /// Steps in which the bed level rises, as a share of the height above it.
 const STEP: f64 = 0.03;
 /// Factor between regularisations, where one step from the exact yield is too long.
@@ -73,24 +93,24 @@ type Exact<F> = (Column<F>, State, f64);
 /// Solves the column on `cells` cells.
 ///
 /// # Errors
-/// [`Stalled`] with the smallest residual if no way leads to a solution.
-pub fn solve<F: FrictionLaw>(flow: Flow<F>, setting: Setting, cells: usize) -> Result<Solved<F>, Stalled> {
+/// [`NotConverged`] with the smallest residual if no way leads to a solution.
+pub fn solve<F: FrictionLaw>(flow: Flow<F>, setting: Setting, cells: usize) -> Result<Solved<F>, NotConverged> {
     let mut history = Vec::new();
-    let mut last = Stalled::new(f64::INFINITY, 0);
-    for trial in TRIALS.into_iter().map(Some).chain([None]) {
+    let mut last = NotConverged::new(f64::INFINITY, 0);
+    for guess in GUESSES.into_iter().map(Some).chain([None]) {
         // Where everything seems to move, another guess may know better; the iteration does not.
-        if trial.is_none() && last.reason.is_some() {
+        if guess.is_none() && last.reason.is_some() {
             break;
         }
-        let attempt = coarse(flow, setting, trial, cells, &mut history)
+        let attempt = coarse(flow, setting, guess, cells, &mut history)
             .and_then(|from| refine(flow, setting, cells, &from, &mut history));
         match attempt {
             Ok((_, state, _)) if state.rest < 0.0 => {
-                last = Stalled { reason: Some(Reason::AllMove), ..Stalled::new(0.0, history.len()) };
+                last = NotConverged { reason: Some(Reason::AllMove), ..NotConverged::new(0.0, history.len()) };
             }
             Ok((column, state, _)) if column.carried(&state) < CARRIED => {
-                let reason = last.reason.or(Some(Reason::Locked(column.carried(&state))));
-                last = Stalled { reason, ..Stalled::new(0.0, history.len()) };
+                let reason = last.reason.or(Some(Reason::Jammed(column.carried(&state))));
+                last = NotConverged { reason, ..NotConverged::new(0.0, history.len()) };
             }
             Ok((column, state, change_of_type)) if flow.lambda == 0.0 => {
                 return Ok(Solved { column, state, exact: None, history, change_of_type });
@@ -99,45 +119,43 @@ pub fn solve<F: FrictionLaw>(flow: Flow<F>, setting: Setting, cells: usize) -> R
                 let (column, state, exact) = column.creep(&state, flow.lambda, &mut history)?;
                 return Ok(Solved { column, state, exact, history, change_of_type });
             }
-            Err(stalled) => {
+            Err(failed) => {
                 let open = match last.reason {
-                    None => stalled.residual < last.residual || stalled.reason.is_some(),
-                    Some(Reason::Locked(_)) => stalled.reason.is_some(),
+                    None => failed.residual < last.residual || failed.reason.is_some(),
+                    Some(Reason::Jammed(_)) => failed.reason.is_some(),
                     Some(_) => false,
                 };
                 if open {
-                    last = stalled;
+                    last = failed;
                 }
-                if let Some(Reason::RunsAway(_)) = stalled.reason {
-                    return Err(Stalled { iterations: history.len(), ..stalled });
+                if let Some(Reason::RunsAway(_)) = failed.reason {
+                    return Err(NotConverged { iterations: history.len(), ..failed });
                 }
             }
         }
     }
-    Err(Stalled { iterations: history.len(), ..last })
+    Err(NotConverged { iterations: history.len(), ..last })
 }
 
 /// The exact yield on a coarse mesh, at the given bed level and without the term that makes the equations change type: from
-/// the guess of a trial, or for `None` by some turns of the iteration, which is slow and goes where Newton does not.
+/// the state of `guess`, or for `None` by some steps of the iteration, which is slow and goes where Newton does not.
 fn coarse<F: FrictionLaw>(
     flow: Flow<F>,
     setting: Setting,
-    trial: Option<(Floor, usize, f64)>,
+    guess: Option<CoarseGuess>,
     cells: usize,
     history: &mut Vec<f64>,
-) -> Result<(Column<F>, State), Stalled> {
+) -> Result<(Column<F>, State), NotConverged> {
     let open = Flow { cut: f64::INFINITY, lambda: 0.0, ..flow };
-    // The amount of grains is settled last.
+    // The amount of grains is found last.
     let setting = Setting { reading: BedReading::Final, ..setting };
-    let (floor, size, friction) = trial.unwrap_or((Floor::Bottom, 80, 0.8));
-    if trial.is_none()
+    if guess.is_none()
         && let Ok(eased) = ease(open, setting, cells, history)
     {
         return Ok(eased);
     }
-    let (mut column, mut state) =
-        Column::start(open, setting, size.min(cells), Guess { floor, friction, mobile: None });
-    if trial.is_none() {
+    let (mut column, mut state) = guess.unwrap_or(CoarseGuess::new(Floor::Bottom, 80, 0.8)).start(open, setting, cells);
+    if guess.is_none() {
         column.flow.lambda = DETOUR.0;
         state = column.iterate(state, &DETOUR.1, history, |_, _| false)?;
         state = column.newton_to(state, ROUGH, history)?;
@@ -154,8 +172,7 @@ fn ease<F: FrictionLaw>(
     setting: Setting,
     cells: usize,
     history: &mut Vec<f64>,
-) -> Result<(Column<F>, State), Stalled> {
-    let (floor, size, friction) = TRIALS[0];
+) -> Result<(Column<F>, State), NotConverged> {
     let (i_0, b) = (flow.friction.half_way(), flow.dilatancy.b);
     let eased = |share: f64| {
         let mut eased = flow;
@@ -163,8 +180,7 @@ fn ease<F: FrictionLaw>(
         eased.dilatancy.b = b * (EASY.1 / b).max(1.0).powf(share);
         eased
     };
-    let (mut column, mut state) =
-        Column::start(eased(1.0), setting, size.min(cells), Guess { floor, friction, mobile: None });
+    let (mut column, mut state) = GUESSES[0].start(eased(1.0), setting, cells);
     for k in (0..=EASING).rev() {
         column.flow = eased(f64::from(k) / f64::from(EASING));
         state = column.newton_to(state, ROUGH, history)?;
@@ -179,13 +195,13 @@ fn refine<F: FrictionLaw>(
     cells: usize,
     (coarse, rough): &(Column<F>, State),
     history: &mut Vec<f64>,
-) -> Result<Exact<F>, Stalled> {
+) -> Result<Exact<F>, NotConverged> {
     let exact = Flow { lambda: 0.0, ..flow };
-    // Some coarse solutions have locked or loose layers that are none of the flow: the balance of the layer knows.
+    // Some coarse solutions have jammed or loose layers that are no part of the flow: the balance of the layer tells.
     let estimate = mobile_volume(&coarse.flow, rough.tau_b, rough.sine);
     let credible = estimate > CREDIBLE * flow.dilatancy.phi_max * setting.level;
     let all_move =
-        Stalled { reason: credible.then_some(Reason::AllMove), ..Stalled::new(f64::INFINITY, history.len()) };
+        NotConverged { reason: credible.then_some(Reason::AllMove), ..NotConverged::new(f64::INFINITY, history.len()) };
     let mobile = coarse.yield_volume(rough).ok_or(all_move)?;
     let rest = match setting.reading {
         BedReading::Final => rough.m + rough.rest - mobile,
@@ -228,24 +244,24 @@ pub fn iterate<F: FrictionLaw>(
     flow: Flow<F>,
     setting: Setting,
     cells: usize,
-    pace: &Pace,
+    control: &StepControl,
     mut stop: impl FnMut(usize, f64) -> bool,
-) -> Result<Solved<F>, Stalled> {
+) -> Result<Solved<F>, NotConverged> {
     let mut history = Vec::new();
     let (mut column, guess) = Column::start(flow, setting, cells, REST);
-    let mut state = column.iterate(guess, pace, &mut history, &mut stop)?;
+    let mut state = column.iterate(guess, control, &mut history, &mut stop)?;
     let mut change_of_type = column.change_of_type(&state);
     while BEYOND * change_of_type > column.flow.cut * (1.0 + ROUNDING) {
         column.flow.cut = BEYOND * change_of_type;
-        state = column.iterate(state, pace, &mut history, &mut stop)?;
+        state = column.iterate(state, control, &mut history, &mut stop)?;
         change_of_type = column.change_of_type(&state);
     }
-    // Where a flow has a moving layer, its grains carry mu_s P_p and more; in locked ones none does.
+    // Where a flow has a moving layer, its grains carry mu_s P_p and more; in jammed ones they carry none.
     let yields = (0..column.mesh.cells()).any(|c| state.r(c) > column.flow.friction.least());
     if !yields {
-        return Err(Stalled {
-            reason: Some(Reason::Locked(column.carried(&state))),
-            ..Stalled::new(0.0, history.len())
+        return Err(NotConverged {
+            reason: Some(Reason::Jammed(column.carried(&state))),
+            ..NotConverged::new(0.0, history.len())
         });
     }
     Ok(Solved { column, state, exact: None, history, change_of_type })
@@ -300,7 +316,7 @@ impl<F: FrictionLaw> Column<F> {
 
     /// The solution that conserves the grains, from the one at the level of the bed at rest: the level in the flow rises in
     /// small steps until the grains are all there.
-    fn rise(&mut self, start: State, history: &mut Vec<f64>) -> Result<State, Stalled> {
+    fn rise(&mut self, start: State, history: &mut Vec<f64>) -> Result<State, NotConverged> {
         let wanted = self.setting;
         let step = STEP * (wanted.height - wanted.level);
         self.setting.reading = BedReading::Final;
@@ -315,7 +331,7 @@ impl<F: FrictionLaw> Column<F> {
                 Ok(next) if self.setting.level < wanted.height => next,
                 _ => {
                     let residual = history.last().copied().unwrap_or(f64::INFINITY);
-                    break Err(Stalled {
+                    break Err(NotConverged {
                         residual,
                         iterations: history.len(),
                         reason: Some(Reason::RunsAway(self.setting.level)),
@@ -334,7 +350,7 @@ impl<F: FrictionLaw> Column<F> {
         exact: &State,
         lambda: f64,
         history: &mut Vec<f64>,
-    ) -> Result<(Self, State, Option<State>), Stalled> {
+    ) -> Result<(Self, State, Option<State>), NotConverged> {
         let whole = exact.m + exact.rest;
         let mesh = Mesh::bed(self.mesh.cells(), TOP / whole, exact.m / whole);
         let mut start = self.transfer(exact, &mesh, (whole, 0.0));

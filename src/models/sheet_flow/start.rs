@@ -158,7 +158,7 @@ fn drive_guess<F: FrictionLaw>(flow: &Flow<F>, setting: &Setting, sine: f64, roo
 
 /// Solid volume over the yield level, from the balance of the moving layer.
 pub(super) fn mobile_volume<F: FrictionLaw>(flow: &Flow<F>, tau_b: f64, sine: f64) -> f64 {
-    let hold = flow.friction.least() * (1.0 - sine * sine).max(0.0).sqrt();
-    let net = hold - sine * (1.0 / (flow.delta * MEAN_PHI) + 1.0);
-    tau_b / net.max(0.2 * hold)
+    let resistance = flow.friction.least() * (1.0 - sine * sine).max(0.0).sqrt();
+    let net = resistance - sine * (1.0 / (flow.delta * MEAN_PHI) + 1.0);
+    tau_b / net.max(0.2 * resistance)
 }

@@ -49,7 +49,7 @@ fn focus<F: FrictionLaw>(flow: &SheetFlow<F>) -> Focus {
             changes: &[],
             laws: &[Smoothed { name: "simple", changes: &["regularisation.law=simple"], falls: None }],
             decades: (1, 10),
-            shown: &[1e-2, 1e-4, 1e-6, 1e-8],
+            reported: &[1e-2, 1e-4, 1e-6, 1e-8],
             slopes_from: 1e-2,
             creep: true,
             rule: None,

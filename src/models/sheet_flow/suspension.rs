@@ -139,9 +139,9 @@ fn middle_fraction<T: Real, F: FrictionLaw>(flow: &Flow<F>, level: &Level<T>, dz
     let mut phi = level.ln_phi.value().exp();
     for _ in 0..SWEEPS {
         let next = image(flow, values.0, values.1, phi);
-        let settled = (next - phi).abs() <= f64::EPSILON * phi;
+        let converged = (next - phi).abs() <= f64::EPSILON * phi;
         phi = next;
-        if settled {
+        if converged {
             break;
         }
     }

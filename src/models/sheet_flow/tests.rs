@@ -3,7 +3,7 @@
 use super::bed::{self, STRIDE, State};
 use super::column::{Floor, Setting};
 use super::flow::{Flow, Unknowns};
-use super::iteration::Pace;
+use super::iteration::StepControl;
 use super::layers::Layers;
 use super::linear::Linearised;
 use super::mesh::Mesh;
@@ -25,7 +25,7 @@ fn scaled(case: &str, settings: &[&str]) -> (Flow, Setting) {
 const SINE: f64 = 0.01;
 const BED: f64 = 5.0;
 
-/// Manufactured fields over the solid volume m: friction, fluid stress, slip, decompaction, velocity of the grains.
+/// Manufactured fields over the solid volume m: friction, fluid stress, slip, dilation, velocity of the grains.
 fn fields(m: f64) -> [f64; 5] {
     [
         0.6 + 0.05 * m.cos(),
@@ -130,8 +130,8 @@ fn the_iteration_ends_where_newton_does() {
         let (flow, setting) = scaled(case, &["regularisation.law=simple", "regularisation.lambda=1e-6"]);
         let solved = solve(flow, setting, 80).unwrap();
         let (_, guess) = Column::start(flow, setting, 80, Guess { floor: Floor::Bottom, friction: 0.8, mobile: None });
-        let pace = Pace { dt: 1.0, tolerance: 1e-10, most: 100_000 };
-        let iterated = solved.column.iterate(guess, &pace, &mut Vec::new(), |_, _| false).unwrap();
+        let control = StepControl { dt: 1.0, tolerance: 1e-10, max_iterations: 100_000 };
+        let iterated = solved.column.iterate(guess, &control, &mut Vec::new(), |_, _| false).unwrap();
         let psi = |state: &State| Layers::new(&solved.column, state).psi();
         let difference = psi(&iterated) / psi(&solved.state) - 1.0;
         assert!(difference.abs() < 1e-7, "{case}: {difference:e}");
@@ -185,7 +185,7 @@ fn the_fluid_column_finds_the_same_stresses_in_the_same_medium() {
                 column.velocity().iter().zip(&velocity).map(|(u, w)| (1.0 - phi) * u + phi * w).collect();
             for f in 1..cells {
                 let (tau, reynolds) = (column.tau_viscous()[f], column.tau_reynolds()[f]);
-                // Grains that do not yield keep phi; the decompaction carries the length.
+                // Grains that do not yield keep phi; the dilation carries the length.
                 let x = Unknowns {
                     r: 0.1,
                     s: tau + reynolds,

@@ -90,7 +90,7 @@ pub struct Setting<'a> {
     pub rate: f64,
     /// whether enduring contacts have the friction that is mobilised, or that of the law: the same in the end, but at rest
     /// only the first says how much
-    pub held: bool,
+    pub mobilised: bool,
 }
 
 /// `x/(e^x - 1)`.
@@ -238,7 +238,7 @@ impl Setting<'_> {
     /// `gamma/(gamma^2 + lambda^2)^(1/2)` with the slope of the iteration.
     fn direction<T: Real>(&self, shear: T, r: Mobilised) -> T {
         let (value, slope) = r.law(shear.value(), self.laws.floors.rate);
-        shear.chain(if self.held { r.0 } else { value }, slope)
+        shear.chain(if self.mobilised { r.0 } else { value }, slope)
     }
 
     /// Stress of enduring contacts under the elastic pressure `p`.

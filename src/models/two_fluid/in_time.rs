@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use super::levels::Levels;
 use super::outcome::{column, report};
+use super::problem::TimeControl;
 use super::transient::{March, Stuck};
 use crate::models::exact::balance;
 use crate::models::two_fluid::TwoFluid;
@@ -27,12 +28,12 @@ struct Sample {
 pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outcome, Failure> {
     let column = column(flow, cells)?;
     let unit = flow.d / flow.velocity_scale();
-    let (duration, tolerance, wanted) = flow.pace;
+    let TimeControl { duration, tolerance, samples: wanted } = flow.time;
     let end = duration / unit;
     let still = column.at_rest(flow.phi);
     let steady = column.laws.drive;
     // -dp/dx over (rho_p - rho_f) g, on the volume of fluid and, over the ratio of densities, on that of the grains.
-    let waves = flow.oscillation.map(|(amplitude, period)| (amplitude * flow.d / flow.stress_scale(), period / unit));
+    let waves = flow.oscillation.map(|waves| (waves.amplitude * flow.d / flow.stress_scale(), waves.period / unit));
     let ratio = column.laws.ratio;
     let drive = |time: f64| match waves {
         None => steady,

@@ -11,9 +11,9 @@ const LONGEST: f64 = 2.0;
 /// Round-off of a balance of momentum, relative to its terms.
 const ROUND_OFF: f64 = 1e-13;
 
-/// A Newton iteration that went nowhere.
+/// A Newton iteration that has not converged.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stalled {
+pub struct NotConverged {
     /// smallest residual
     pub residual: f64,
     /// iterations made
@@ -22,20 +22,20 @@ pub struct Stalled {
 
 /// When the iteration ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pace {
+pub struct StepControl {
     /// largest change of a scaled unknown after which no step follows
     pub tolerance: f64,
     /// largest force that a cell may miss then, in units of the weight of a layer of grains: the velocities of a bed at rest are
     /// too small to say whether its stresses balance
     pub force: f64,
     /// most iterations
-    pub most: usize,
+    pub max_iterations: usize,
 }
 
 impl Column {
     /// Solid volume of `state`.
     #[must_use]
-    pub fn held(&self, state: &[Unknowns]) -> f64 {
+    pub fn solid_volume(&self, state: &[Unknowns]) -> f64 {
         state.iter().zip(&self.widths).map(|(x, dz)| solid(&self.laws, x) * dz).sum()
     }
 
@@ -65,29 +65,31 @@ impl Column {
     /// Solves for the end of a step, from `state`; the number of iterations and the last residual.
     ///
     /// # Errors
-    /// [`Stalled`] if the residual does not fall to `pace.tolerance`.
+    /// [`NotConverged`] if the residual does not fall to `control.tolerance`.
     pub fn newton(
         &self,
         state: &mut [Unknowns],
         memory: &Memory,
         linear: &mut Linear,
-        pace: Pace,
-    ) -> Result<(usize, f64), Stalled> {
+        control: StepControl,
+    ) -> Result<(usize, f64), NotConverged> {
         let mut best = f64::INFINITY;
         let (rate, velocity) = (self.laws.floors.rate, self.laws.fall().recip());
         let mut shear: Vec<f64> = self.shear(state).collect();
         let mut mobilised: Vec<Mobilised> = shear.iter().map(|shear| Mobilised(shear / shear.hypot(rate))).collect();
         // Inertia over a short time leaves a round-off of its own.
         let highest = self.widths.iter().copied().fold(0.0, f64::max);
-        let allowed = pace.force.max(ROUND_OFF * memory.rate * self.laws.ratio * velocity * highest);
-        for iteration in 0..pace.most {
+        let allowed = control.force.max(ROUND_OFF * memory.rate * self.laws.ratio * velocity * highest);
+        for iteration in 0..control.max_iterations {
             self.linearise(state, memory, &mobilised, linear);
             let norm = linear.norm(state);
             if !norm.is_finite() {
-                return Err(Stalled { residual: best, iterations: iteration });
+                return Err(NotConverged { residual: best, iterations: iteration });
             }
             best = best.min(norm);
-            let Ok(step) = linear.step(state) else { return Err(Stalled { residual: best, iterations: iteration }) };
+            let Ok(step) = linear.step(state) else {
+                return Err(NotConverged { residual: best, iterations: iteration });
+            };
             let mut largest: f64 = 0.0;
             for (x, step) in state.iter_mut().zip(step.as_chunks::<SIZE>().0) {
                 for (k, (value, step)) in x.iter_mut().zip(step).enumerate() {
@@ -113,7 +115,7 @@ impl Column {
                 let missed = self.missed(state, memory, &mobilised);
                 missed.iter().flatten().all(|force| force.abs() <= allowed)
             };
-            if largest <= pace.tolerance && (pace.force.is_infinite() || balanced()) {
+            if largest <= control.tolerance && (control.force.is_infinite() || balanced()) {
                 // What a steady flow reports is the residual that it ends with.
                 let last = if memory.rate > 0.0 {
                     norm
@@ -125,6 +127,6 @@ impl Column {
                 return Ok((iteration + 1, last));
             }
         }
-        Err(Stalled { residual: best, iterations: pace.most })
+        Err(NotConverged { residual: best, iterations: control.max_iterations })
     }
 }

@@ -6,7 +6,7 @@ use super::face::Mobilised;
 use super::in_time;
 use super::laws::{Laws, Moving};
 use super::levels::{Levels, NONE};
-use super::newton::Stalled;
+use super::newton::NotConverged;
 use super::profile::profile;
 use super::state::Unknowns;
 use super::steady;
@@ -34,7 +34,7 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     let column = column(flow, cells)?;
     let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
     let solved = if stopped {
-        Err(Stalled { residual: f64::INFINITY, iterations: 0 })
+        Err(NotConverged { residual: f64::INFINITY, iterations: 0 })
     } else {
         steady::solve(&column, flow.phi, flow.shields(), |fraction| {
             stopped |= watch.see(&Snapshot { stage: "steady flow", fraction, quantity: None }).is_break();
@@ -44,7 +44,7 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     if stopped {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
     }
-    let solved = solved.map_err(|Stalled { residual, iterations }| TwoFluidError::NoSteadyFlow {
+    let solved = solved.map_err(|NotConverged { residual, iterations }| TwoFluidError::NoSteadyFlow {
         residual,
         iterations,
         shields: flow.shields(),
@@ -77,7 +77,7 @@ pub(super) fn column(flow: &TwoFluid, cells: usize) -> Result<Column, NumericalE
     Ok(Column { laws, widths: spacing.widths(cells), spacing, solids })
 }
 
-/// Everything that is said of a state.
+/// Everything that is reported of a state.
 pub(super) fn report(
     flow: &TwoFluid,
     column: &Column,

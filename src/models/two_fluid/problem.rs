@@ -1,6 +1,6 @@
 //! Problems of grains and fluid as two fluids.
 
-use super::case::{FluidStress, State, TwoFluidTables};
+use super::case::{FluidStress, Oscillation, State, TwoFluidTables};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::dispersion::Dispersion;
@@ -17,6 +17,17 @@ use crate::models::two_fluid::TwoFluidFault;
 use crate::result::Context;
 use crate::result::{Failure, Figure, Outcome};
 use crate::units::significant;
+
+/// How a flow is followed in time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeControl {
+    /// simulated time \[s]
+    pub duration: f64,
+    /// relative error of a step
+    pub tolerance: f64,
+    /// number of samples
+    pub samples: usize,
+}
 
 /// A two-fluid flow. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -69,10 +80,10 @@ pub struct TwoFluid {
     pub phi_floor: f64,
     /// distance from the level of the grains at rest within which cells stay fine \[m]; all of the same height without
     pub fine: Option<f64>,
-    /// amplitude [Pa/m] and period \[s] of a pressure gradient that goes to and fro
-    pub oscillation: Option<(f64, f64)>,
-    /// simulated time \[s], error of a step, and number of samples
-    pub pace: (f64, f64, usize),
+    /// a pressure gradient that oscillates: amplitude [Pa/m], period \[s]
+    pub oscillation: Option<Oscillation>,
+    /// how the flow is followed in time
+    pub time: TimeControl,
 }
 
 impl TwoFluid {
@@ -180,8 +191,8 @@ impl Model for OnMesh<TwoFluid> {
             rate_floor: regularisation.shear_rate,
             phi_floor: regularisation.phi,
             fine: tables.grid.fine,
-            oscillation: flow.oscillation.map(|waves| (waves.amplitude, waves.period)),
-            pace: (solver.duration, solver.tolerance, solver.samples),
+            oscillation: flow.oscillation,
+            time: TimeControl { duration: solver.duration, tolerance: solver.tolerance, samples: solver.samples },
         };
         Some(Self { problem, cells: tables.grid.cells })
     }
@@ -235,7 +246,7 @@ impl Solve for OnMesh<TwoFluid> {
         let flow = &self.problem;
         let (at_s, hint) = match flow.state {
             State::Steady => (None, "model.state = \"transient\", which follows the flow from rest"),
-            State::Transient => (Some(flow.pace.0), "a smaller solver.tolerance, or more grid.cells"),
+            State::Transient => (Some(flow.time.duration), "a smaller solver.tolerance, or more grid.cells"),
         };
         let steady = flow.beta > 0.0 && flow.oscillation.is_none();
         steady.then(|| SteadyDrive { velocity_scale: flow.velocity_scale(), at_s, hint })

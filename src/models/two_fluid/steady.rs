@@ -2,13 +2,13 @@
 //! solution to the wanted column. The equations are those of the transient with a vanishing rate.
 
 use super::face::Mobilised;
-use super::newton::{Pace, Stalled};
+use super::newton::{NotConverged, StepControl};
 use super::start::Start;
 use super::state::{HEAT, LOGIT, Unknowns};
 use super::system::{Column, Linear, Memory, carried};
 
 /// Cells on which the march goes, and factors of the thickness of the guess, tried in turn.
-const TRIALS: [(usize, f64); 4] = [(80, 1.0), (120, 1.0), (80, 1.6), (120, 0.6)];
+const GUESSES: [(usize, f64); 4] = [(80, 1.0), (120, 1.0), (80, 1.6), (120, 0.6)];
 /// Drives from which the flow is followed down to the wanted one, over it.
 const STRONGER: [f64; 3] = [1.5, 2.5, 4.0];
 /// Shields numbers below which a bed is tried at rest first, and below which a stronger flow is tried before the wanted one:
@@ -17,12 +17,12 @@ const WEAK: [f64; 2] = [0.05, 0.35];
 /// First, smallest and largest step of pseudo-time, in the time in which grains fall.
 const STEPS: [f64; 3] = [0.06, 1e-6, 2e2];
 /// Most iterations of one march.
-const MOST: usize = 1300;
+const MAX_ITERATIONS_OF_MARCH: usize = 1300;
 /// Iterations after which no other way is tried.
-const MOST_IN_ALL: usize = 4000;
-/// Pace of a step of the march, of the last solution, and of its refinement.
-const ROUGH: Pace = Pace { tolerance: 1e-2, force: f64::INFINITY, most: 8 };
-const FINE: Pace = Pace { tolerance: 1e-8, force: 1e-8, most: 40 };
+const MAX_ITERATIONS_IN_ALL: usize = 4000;
+/// Step control of a step of the march, of the last solution, and of its refinement.
+const ROUGH: StepControl = StepControl { tolerance: 1e-2, force: f64::INFINITY, max_iterations: 8 };
+const FINE: StepControl = StepControl { tolerance: 1e-8, force: 1e-8, max_iterations: 40 };
 /// First and smallest step of the logarithm of the drive.
 const WALK: (f64, f64) = (0.05, 1e-3);
 
@@ -61,18 +61,18 @@ pub fn euler(column: &Column, state: &[Unknowns], dt: f64) -> Memory {
 /// Follows the flow from `state` until it is steady. `stop` is asked before each step.
 ///
 /// # Errors
-/// [`Stalled`] if the steps become too small or too many.
+/// [`NotConverged`] if the steps become too small or too many.
 pub fn march(
     column: &Column,
     mut state: Vec<Unknowns>,
     iterations: &mut usize,
     history: &mut Vec<f64>,
     stop: &mut impl FnMut(f64) -> bool,
-) -> Result<Vec<Unknowns>, Stalled> {
+) -> Result<Vec<Unknowns>, NotConverged> {
     let mut linear = Linear::new(column.cells());
     let [mut dt, least, most] = STEPS.map(|step| step * column.laws.fall());
     let (start, mut best) = (*iterations, f64::INFINITY);
-    while *iterations - start < MOST && dt > least && !stop(share(dt / column.laws.fall())) {
+    while *iterations - start < MAX_ITERATIONS_OF_MARCH && dt > least && !stop(share(dt / column.laws.fall())) {
         let mut next = state.clone();
         match column.newton(&mut next, &euler(column, &state, dt), &mut linear, ROUGH) {
             Ok((made, norm)) => {
@@ -85,8 +85,8 @@ pub fn march(
                     dt *= 1.5;
                 }
             }
-            Err(stalled) => {
-                *iterations += stalled.iterations;
+            Err(failed) => {
+                *iterations += failed.iterations;
                 dt *= 0.25;
             }
         }
@@ -96,15 +96,15 @@ pub fn march(
                     *iterations += made;
                     return Ok(state);
                 }
-                Err(stalled) => {
-                    *iterations += stalled.iterations;
-                    best = best.min(stalled.residual);
+                Err(failed) => {
+                    *iterations += failed.iterations;
+                    best = best.min(failed.residual);
                     dt *= 0.1;
                 }
             }
         }
     }
-    Err(Stalled { residual: best, iterations: *iterations })
+    Err(NotConverged { residual: best, iterations: *iterations })
 }
 
 /// The steady flow near `state`.
@@ -113,7 +113,7 @@ fn settle(
     state: &mut Vec<Unknowns>,
     linear: &mut Linear,
     history: &mut Vec<f64>,
-) -> Result<(Vec<Unknowns>, usize), Stalled> {
+) -> Result<(Vec<Unknowns>, usize), NotConverged> {
     let (made, norm) = column.newton(state, &Memory::steady(column.cells()), linear, FINE)?;
     history.push(norm);
     Ok((std::mem::take(state), made))
@@ -122,12 +122,17 @@ fn settle(
 /// The steady flow of `column` over a bed of the solid fraction `phi` at rest, driven with the Shields number `shields`.
 ///
 /// # Errors
-/// [`Stalled`] with the smallest residual if no way leads to a steady flow.
-pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut(f64) -> bool) -> Result<Steady, Stalled> {
+/// [`NotConverged`] with the smallest residual if no way leads to a steady flow.
+pub fn solve(
+    column: &Column,
+    phi: f64,
+    shields: f64,
+    mut stop: impl FnMut(f64) -> bool,
+) -> Result<Steady, NotConverged> {
     let (mut iterations, mut history) = (0, Vec::new());
     let mut best = f64::INFINITY;
     for (cells, start, factor) in ways(shields) {
-        if stop(0.0) || iterations > MOST_IN_ALL {
+        if stop(0.0) || iterations > MAX_ITERATIONS_IN_ALL {
             break;
         }
         let (coarse, driven) = (coarser(column, cells), column.driven(factor));
@@ -142,10 +147,10 @@ pub fn solve(column: &Column, phi: f64, shields: f64, mut stop: impl FnMut(f64) 
                 let (state, made) = settle(column, &mut state, &mut linear, &mut history)?;
                 return Ok(Steady { state, mobilised: linear.mobilised, history, iterations: iterations + made });
             }
-            Err(stalled) => best = best.min(stalled.residual),
+            Err(failed) => best = best.min(failed.residual),
         }
     }
-    Err(Stalled { residual: best, iterations })
+    Err(NotConverged { residual: best, iterations })
 }
 
 /// Where to start from, in turn: cells of the march, its first state, and the drive over the wanted one.
@@ -153,14 +158,14 @@ fn ways(shields: f64) -> Vec<(usize, Start, f64)> {
     let layer = |(cells, thickness): (usize, f64), factor: f64| {
         (cells, Start::Layer { shields: shields * factor, thickness }, factor)
     };
-    let straight = layer(TRIALS[0], 1.0);
-    let rest = (TRIALS[0].0, Start::Rest, 1.0);
-    let others = TRIALS[1..].iter().map(|trial| layer(*trial, 1.0));
+    let straight = layer(GUESSES[0], 1.0);
+    let rest = (GUESSES[0].0, Start::Rest, 1.0);
+    let others = GUESSES[1..].iter().map(|guess| layer(*guess, 1.0));
     let mut ways = Vec::new();
     if shields < WEAK[0] {
         ways.extend([rest, straight]);
     } else {
-        let mut above: Vec<_> = STRONGER.into_iter().map(|factor| layer(TRIALS[0], factor)).collect();
+        let mut above: Vec<_> = STRONGER.into_iter().map(|factor| layer(GUESSES[0], factor)).collect();
         // From the first flow that is not weak itself.
         above.sort_by_key(|(_, _, factor)| shields * factor < WEAK[1]);
         let first = if shields < WEAK[1] { above.len() } else { 0 };
@@ -190,7 +195,7 @@ fn refine(
     iterations: &mut usize,
     history: &mut Vec<f64>,
     stop: &mut impl FnMut(f64) -> bool,
-) -> Result<Vec<Unknowns>, Stalled> {
+) -> Result<Vec<Unknowns>, NotConverged> {
     if coarse.widths == column.widths {
         return Ok(rough.to_vec());
     }
@@ -203,8 +208,8 @@ fn refine(
             *iterations += made;
             state
         }
-        Err(stalled) => {
-            *iterations += stalled.iterations;
+        Err(failed) => {
+            *iterations += failed.iterations;
             march(&next, from, iterations, history, stop)?
         }
     };
@@ -219,7 +224,7 @@ fn walk(
     iterations: &mut usize,
     history: &mut Vec<f64>,
     stop: &mut impl FnMut(f64) -> bool,
-) -> Result<Vec<Unknowns>, Stalled> {
+) -> Result<Vec<Unknowns>, NotConverged> {
     let mut linear = Linear::new(column.cells());
     let (mut at, mut step) = (stronger.ln(), WALK.0);
     let mut before: Option<(f64, Vec<Unknowns>)> = None;
@@ -242,11 +247,11 @@ fn walk(
                 at = to;
                 step *= if made <= 6 { 1.5 } else { 1.0 };
             }
-            Err(stalled) => {
-                *iterations += stalled.iterations;
+            Err(failed) => {
+                *iterations += failed.iterations;
                 step *= 0.5;
                 if step < WALK.1 || stop(0.0) {
-                    return Err(stalled);
+                    return Err(failed);
                 }
             }
         }

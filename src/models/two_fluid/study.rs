@@ -54,7 +54,7 @@ fn focus(flow: &TwoFluid) -> Focus {
             changes: &[],
             laws: &[Smoothed { name: "bercovier-engelman", changes: &[], falls: Some(Law::Linear) }],
             decades: if steady { (1, 9) } else { (1, 6) },
-            shown: &[1e-2, 1e-4, 1e-6],
+            reported: &[1e-2, 1e-4, 1e-6],
             slopes_from: 1e-1,
             creep: false,
             rule: None,

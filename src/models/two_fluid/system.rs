@@ -121,7 +121,7 @@ impl Column {
         memory: &Memory,
         mobilised: &[Mobilised],
     ) -> (Vec<Face<f64>>, Vec<Inside<f64>>) {
-        let setting = Setting { laws: &self.laws, rate: memory.rate, held: true };
+        let setting = Setting { laws: &self.laws, rate: memory.rate, mobilised: true };
         let cells: Vec<Cell<f64>> = state.iter().map(|x| Cell::new(&self.laws, x)).collect();
         let mut faces = vec![setting.wall(0.5 * self.widths[0], &cells[0], self.solids, mobilised[0])];
         let mut inside = Vec::with_capacity(cells.len());
@@ -158,7 +158,7 @@ impl Column {
 
     /// Residuals and derivatives at `state`.
     pub fn linearise(&self, state: &[Unknowns], memory: &Memory, mobilised: &[Mobilised], linear: &mut Linear) {
-        let setting = Setting { laws: &self.laws, rate: memory.rate, held: false };
+        let setting = Setting { laws: &self.laws, rate: memory.rate, mobilised: false };
         let n = self.cells();
         linear.residual.fill(0.0);
         linear.velocity = self.laws.fall().recip();
@@ -272,9 +272,9 @@ impl Linear {
             self.blocks[i][1][row][row] = 1.0;
         }
         // The cell still holds what is above its lower face.
-        let held = super::state::LOGIT;
-        self.residual[SIZE * i + held] -= x[VOLUME];
-        self.blocks[i][1][held][VOLUME] -= 1.0;
+        let row = super::state::LOGIT;
+        self.residual[SIZE * i + row] -= x[VOLUME];
+        self.blocks[i][1][row][VOLUME] -= 1.0;
         // The mixing length at the top.
         let length = super::state::LENGTH;
         self.residual[SIZE * i + length] += x[length];

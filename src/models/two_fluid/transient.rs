@@ -6,16 +6,19 @@
 //! Newton's method fails, is taken again, shorter.
 
 use super::face::Mobilised;
-use super::newton::{Pace, Stalled};
+use super::newton::{NotConverged, StepControl};
 use super::state::{GRAINS, HEAT, LOGIT, RISE, Unknowns};
 use super::system::{Column, Linear, Memory, carried};
 
-/// Pace of a step: the forces balance after it, and the iteration leaves less than this share of the error of the step.
-const PACE: Pace = Pace { tolerance: 1e-4, force: 1e-8, most: 16 };
+/// Control of a step: the forces balance after it, and the iteration leaves less than this share of the error of the step.
+const CONTROL: StepControl = StepControl { tolerance: 1e-4, force: 1e-8, max_iterations: 16 };
 /// First step for an error of 1, and smallest step, in the time in which grains fall.
-const STEPS: (f64, f64) = (3e-2, 1e-9);
-/// Largest growth and fall of a step, and what a failure of Newton's method leaves of it.
-const GROWTH: (f64, f64, f64) = (2.0, 0.2, 0.25);
+const FIRST_STEP: f64 = 3e-2;
+const MIN_STEP: f64 = 1e-9;
+/// Smallest and largest factor between two steps, and that after a failure of Newton's method.
+const MIN_GROWTH: f64 = 0.2;
+const MAX_GROWTH: f64 = 2.0;
+const AFTER_FAILURE: f64 = 0.25;
 /// A step aims at this share of the allowed error, and is kept up to this multiple of it.
 const AIM: f64 = 0.7;
 const KEPT: f64 = 1.5;
@@ -87,22 +90,22 @@ impl March {
     /// # Errors
     /// [`Stuck`] if no step is short enough.
     pub fn step(&mut self, tolerance: f64, end: f64, drive: impl Fn(f64) -> [f64; 2]) -> Result<(), Stuck> {
-        let pace = Pace { tolerance: (PACE.tolerance * tolerance).min(1e-7), ..PACE };
+        let control = StepControl { tolerance: (CONTROL.tolerance * tolerance).min(1e-7), ..CONTROL };
         loop {
             if self.before.is_empty() && self.refused == 0 {
                 // Backward Euler: its error goes with the square of the step.
-                self.dt = STEPS.0 * tolerance.sqrt() * self.column.laws.fall();
+                self.dt = FIRST_STEP * tolerance.sqrt() * self.column.laws.fall();
             }
             let dt = self.dt.min(end - self.time);
             let last = dt >= end - self.time;
             self.column.laws.drive = drive(self.time + dt);
             let memory = self.memory(dt);
             let mut next = self.ahead(dt);
-            let residual = match self.column.newton(&mut next, &memory, &mut self.linear, pace) {
+            let residual = match self.column.newton(&mut next, &memory, &mut self.linear, control) {
                 Ok((made, _)) => {
                     self.iterations += made;
                     let error = self.error(dt, &next);
-                    let factor = (AIM * tolerance / error.max(f64::MIN_POSITIVE)).cbrt().clamp(GROWTH.1, GROWTH.0);
+                    let factor = (AIM * tolerance / error.max(f64::MIN_POSITIVE)).cbrt().clamp(MIN_GROWTH, MAX_GROWTH);
                     if error <= KEPT * tolerance {
                         self.keep(dt, next);
                         self.time = if last { end } else { self.time };
@@ -112,14 +115,14 @@ impl March {
                     self.dt = dt * factor.min(0.8);
                     error
                 }
-                Err(Stalled { residual, iterations }) => {
+                Err(NotConverged { residual, iterations }) => {
                     self.iterations += iterations;
-                    self.dt = dt * GROWTH.2;
+                    self.dt = dt * AFTER_FAILURE;
                     residual
                 }
             };
             self.refused += 1;
-            if self.dt < STEPS.1 * self.column.laws.fall() {
+            if self.dt < MIN_STEP * self.column.laws.fall() {
                 return Err(Stuck { time: self.time, dt: self.dt, residual });
             }
         }
@@ -132,8 +135,8 @@ impl March {
         self.before.truncate(3);
         self.time += dt;
         self.steps += 1;
-        let held: f64 = self.column.held(&self.state);
-        self.drift = self.drift.max((held / self.column.solids - 1.0).abs());
+        let volume: f64 = self.column.solid_volume(&self.state);
+        self.drift = self.drift.max((volume / self.column.solids - 1.0).abs());
     }
 
     fn memory(&self, dt: f64) -> Memory {

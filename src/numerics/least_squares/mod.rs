@@ -53,8 +53,8 @@ pub struct Fit<E> {
     pub evaluations: usize,
     /// how often the model had no answer
     pub refusals: usize,
-    /// whether a parameter is held by its bound
-    pub held: Vec<bool>,
+    /// whether a parameter is at its bound
+    pub at_bound: Vec<bool>,
     /// the remaining step in standard errors
     pub offset: f64,
     /// whether this is a minimum
@@ -72,7 +72,7 @@ pub enum Ended<E> {
     NotConverged,
 }
 
-/// Minimises the sum of squares of `residuals` from `start` within `bounds`; `see` is told its root after each better trial.
+/// Minimises the sum of squares of `residuals` from `start` within `bounds`; `see` receives its root after each better trial.
 ///
 /// # Errors
 /// That of `residuals` at the start. Further failures are in [`Fit::ended`].
@@ -99,10 +99,10 @@ pub fn minimise<E: Clone + Send>(
     let method = LevenbergMarquardt::new().with_ftol(TOLERANCE).with_xtol(TOLERANCE).with_gtol(TOLERANCE);
     let method = method.with_patience(PATIENCE);
     let mut releases = RELEASES * start.len();
-    let (halted, jacobian, held) = loop {
+    let (halted, jacobian, at_bound) = loop {
         let (ended, report) = method.minimize(search);
         search = ended;
-        // What no machine can improve on is as good as converged, if the offset says so.
+        // What no machine can improve on is as good as converged, if the offset confirms it.
         let halted = report.termination.was_successful()
             || matches!(report.termination, TerminationReason::NoImprovementPossible(_));
         let (x, r) = search.best.clone();
@@ -111,7 +111,7 @@ pub fn minimise<E: Clone + Send>(
             Err(error) => break (halted, Err(error), vec![false; start.len()]),
             Ok(jacobian) => match search.at_bounds(&jacobian) {
                 (_, true) if releases > 0 => releases -= 1,
-                (held, _) => break (halted, Ok(jacobian), held),
+                (at_bound, _) => break (halted, Ok(jacobian), at_bound),
             },
         }
     };
@@ -120,7 +120,7 @@ pub fn minimise<E: Clone + Send>(
         Ok(jacobian) => (Some(jacobian), None),
         Err(error) => (None, Some(error)),
     };
-    let offset = jacobian.as_ref().map_or(f64::INFINITY, |jacobian| offset(&free(jacobian, &held), &r));
+    let offset = jacobian.as_ref().map_or(f64::INFINITY, |jacobian| offset(&free(jacobian, &at_bound), &r));
     let still = jacobian.as_ref().and_then(|j| j.column_iter().position(|column| column.norm() == 0.0));
     let exact = r.norm() <= EXACT * before || r.norm() == 0.0;
     let ended = match (still, blocked.or(search.refused)) {
@@ -138,15 +138,15 @@ pub fn minimise<E: Clone + Send>(
         residuals: r.data.into(),
         before,
         jacobian,
-        held,
+        at_bound,
         offset,
         ended,
     })
 }
 
-/// The columns of the parameters that are not held.
-fn free(jacobian: &DMatrix<f64>, held: &[bool]) -> DMatrix<f64> {
-    let columns: Vec<usize> = (0..held.len()).filter(|&i| !held[i]).collect();
+/// The columns of the parameters that are not at their bound.
+fn free(jacobian: &DMatrix<f64>, at_bound: &[bool]) -> DMatrix<f64> {
+    let columns: Vec<usize> = (0..at_bound.len()).filter(|&i| !at_bound[i]).collect();
     jacobian.select_columns(&columns)
 }
 
@@ -221,20 +221,22 @@ impl<F: Fn(&[f64]) -> Result<Vec<f64>, E> + Sync, E: Clone + Send> Search<'_, F,
         DVector::from_iterator(x.len(), x.iter().zip(self.bounds).map(|(x, (low, high))| x.max(*low).min(*high)))
     }
 
-    /// Which parameters of the best point are held by their bound, and whether any stands at its bound that should leave it.
+    /// Which parameters of the best point stay at their bound, and whether any stands at its bound that should leave it.
     fn at_bounds(&self, jacobian: &DMatrix<f64>) -> (Vec<bool>, bool) {
         let (x, r) = &self.best;
         let ascent = jacobian.transpose() * r;
         let at = |i: usize| (x[i] <= self.bounds[i].0, x[i] >= self.bounds[i].1);
-        let held: Vec<bool> =
+        let at_bound: Vec<bool> =
             (0..x.len()).map(|i| (at(i).0 && ascent[i] >= 0.0) || (at(i).1 && ascent[i] <= 0.0)).collect();
         // A step that changes nothing does not count.
         let inward = |i: usize| {
             let column = jacobian.column(i).norm();
-            (at(i).0 || at(i).1) && !held[i] && ascent[i].abs() > OFFSET * column * r.norm() / (r.len() as f64).sqrt()
+            (at(i).0 || at(i).1)
+                && !at_bound[i]
+                && ascent[i].abs() > OFFSET * column * r.norm() / (r.len() as f64).sqrt()
         };
         let inward = (0..x.len()).any(inward);
-        (held, inward)
+        (at_bound, inward)
     }
 }
 

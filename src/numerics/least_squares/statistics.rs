@@ -11,9 +11,9 @@ pub struct Statistics {
     pub chi2: f64,
     /// residuals less free parameters
     pub freedom: usize,
-    /// standard error of each parameter; not a number for one that is held
+    /// standard error of each parameter; not a number for one at its bound
     pub errors: Vec<f64>,
-    /// correlation of each pair; not a number with one that is held
+    /// correlation of each pair; not a number with one at its bound
     pub correlations: Vec<Vec<f64>>,
     /// singular values of the derivative, descending
     pub singular: Vec<f64>,
@@ -28,12 +28,12 @@ impl Statistics {
         (0..n).flat_map(move |i| (i + 1..n).map(move |j| (i, j, self.correlations[i][j])))
     }
 
-    /// Standard errors and correlations from `residuals` with their derivative, of the parameters that are not `held`.
+    /// Standard errors and correlations from `residuals` with their derivative, of the parameters that are not `at_bound`.
     /// Residuals are in units of their standard error if that is `known`; else it is taken from them. `None` without a
     /// degree of freedom to take it from, without a free parameter, and where a number is not finite.
     #[must_use]
-    pub fn of(residuals: &[f64], jacobian: &DMatrix<f64>, held: &[bool], known: bool) -> Option<Self> {
-        let jacobian = free(jacobian, held);
+    pub fn of(residuals: &[f64], jacobian: &DMatrix<f64>, at_bound: &[bool], known: bool) -> Option<Self> {
+        let jacobian = free(jacobian, at_bound);
         let n = jacobian.ncols();
         let freedom = residuals.len().checked_sub(n)?;
         let chi2 = residuals.iter().map(|r| r * r).sum::<f64>();
@@ -59,7 +59,8 @@ impl Statistics {
         }
         // Place of each parameter among the free ones.
         let mut next = 0..n;
-        let place: Vec<Option<usize>> = held.iter().map(|held| if *held { None } else { next.next() }).collect();
+        let place: Vec<Option<usize>> =
+            at_bound.iter().map(|at_bound| if *at_bound { None } else { next.next() }).collect();
         let deviation = |i: usize| covariance[(i, i)].sqrt();
         let correlation = |i: &Option<usize>, j: &Option<usize>| match (*i, *j) {
             (Some(i), Some(j)) if i == j => 1.0,

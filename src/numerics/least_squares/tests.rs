@@ -76,18 +76,19 @@ fn a_bound_holds_a_parameter_and_the_others_are_fitted_beside_it() {
     };
     for start in [[0.2, 5.0], [1.0, -5.0], [-3.0, -4.0]] {
         let found = within(&start, &[(-4.0, 1.0), (-5.0, 9.0)], f);
-        assert_eq!((&found.ended, &found.held), (&Ok(()), &vec![true, false]), "{found:?}");
+        assert_eq!((&found.ended, &found.at_bound), (&Ok(()), &vec![true, false]), "{found:?}");
         assert_eq!(found.x[0], 1.0);
         assert_relative_eq!(found.x[1], 1.3, epsilon = 1e-8);
-        let told = Statistics::of(&found.residuals, found.jacobian.as_ref().unwrap(), &found.held, true).unwrap();
-        assert_relative_eq!(told.errors[1], (1.0_f64 / 3.0).sqrt(), max_relative = 1e-6);
-        assert!(told.errors[0].is_nan() && told.freedom == 2, "{told:?}");
+        let statistics =
+            Statistics::of(&found.residuals, found.jacobian.as_ref().unwrap(), &found.at_bound, true).unwrap();
+        assert_relative_eq!(statistics.errors[1], (1.0_f64 / 3.0).sqrt(), max_relative = 1e-6);
+        assert!(statistics.errors[0].is_nan() && statistics.freedom == 2, "{statistics:?}");
     }
     // From a bound inwards, and from one that the way there leads beyond.
     let valley = |p: &[f64]| Ok(vec![10.0 * (p[1] - p[0] * p[0]), 1.0 - p[0]]);
     for start in [[-1.5, 1.0], [-1.2, 2.0], [1.5, -0.5]] {
         let found = within(&start, &[(-1.5, 1.5), (-0.5, 2.0)], valley);
-        assert_eq!((&found.ended, &found.held), (&Ok(()), &vec![false, false]), "{start:?}: {found:?}");
+        assert_eq!((&found.ended, &found.at_bound), (&Ok(()), &vec![false, false]), "{start:?}: {found:?}");
         assert_relative_eq!(found.x[1], 1.0, epsilon = 1e-6);
     }
 }
@@ -95,7 +96,7 @@ fn a_bound_holds_a_parameter_and_the_others_are_fitted_beside_it() {
 #[test]
 fn errors_are_those_of_many_noisy_repeats() {
     // y = a exp(-b t) with noise of one size: the spread of the fits is the error that each of them states.
-    let (truth, sigma, repeats) = ([2.0, 0.7], 0.05, 400_u64);
+    let (exact, sigma, repeats) = ([2.0, 0.7], 0.05, 400_u64);
     let model = |p: &[f64], t: f64| p[0] * (-p[1] * t).exp();
     let (mut spread, mut stated, mut product, mut correlation) = ([0.0; 2], [0.0; 2], 0.0, 0.0);
     let mut state = 1;
@@ -103,19 +104,20 @@ fn errors_are_those_of_many_noisy_repeats() {
         let data: Vec<(f64, f64)> = (0..20_u32)
             .map(|i| {
                 let t = 0.2 * f64::from(i);
-                (t, model(&truth, t) + sigma * normal(&mut state))
+                (t, model(&exact, t) + sigma * normal(&mut state))
             })
             .collect();
         let found = fit(&[1.0, 1.0], |p| Ok(data.iter().map(|(t, y)| (model(p, *t) - y) / sigma).collect()));
         assert_eq!(found.ended, Ok(()));
-        let told = Statistics::of(&found.residuals, found.jacobian.as_ref().unwrap(), &found.held, true).unwrap();
-        let off = [0, 1].map(|i| found.x[i] - truth[i]);
+        let statistics =
+            Statistics::of(&found.residuals, found.jacobian.as_ref().unwrap(), &found.at_bound, true).unwrap();
+        let off = [0, 1].map(|i| found.x[i] - exact[i]);
         for i in 0..2 {
             spread[i] += off[i] * off[i] / repeats as f64;
-            stated[i] += told.errors[i].powi(2) / repeats as f64;
+            stated[i] += statistics.errors[i].powi(2) / repeats as f64;
         }
         product += off[0] * off[1] / repeats as f64;
-        correlation += told.correlations[0][1] / repeats as f64;
+        correlation += statistics.correlations[0][1] / repeats as f64;
     }
     // A variance of 400 draws is known within 7 %.
     assert!((0..2).all(|i| (spread[i] / stated[i] - 1.0).abs() < 0.2), "{spread:?} {stated:?}");
@@ -131,8 +133,8 @@ fn what_the_data_do_not_tell_apart_is_a_minimum_all_the_same() {
     };
     let found = fit(&[0.0, 0.5], f);
     assert_eq!(found.ended, Ok(()));
-    let told = Statistics::of(&found.residuals, found.jacobian.as_ref().unwrap(), &found.held, true).unwrap();
-    assert!(told.correlations[0][1] < -0.999_999 && told.errors[0] > 1e3, "{told:?}");
-    let (direction, error) = &told.weakest;
-    assert!((direction[0] + direction[1]).abs() < 1e-6 && *error > 1e3, "{told:?}");
+    let statistics = Statistics::of(&found.residuals, found.jacobian.as_ref().unwrap(), &found.at_bound, true).unwrap();
+    assert!(statistics.correlations[0][1] < -0.999_999 && statistics.errors[0] > 1e3, "{statistics:?}");
+    let (direction, error) = &statistics.weakest;
+    assert!((direction[0] + direction[1]).abs() < 1e-6 && *error > 1e3, "{statistics:?}");
 }

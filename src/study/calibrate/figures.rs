@@ -1,6 +1,6 @@
 //! What a fit looks like: data and model before and after, and what is left between them.
 
-use super::judge::Found;
+use super::assessment::Found;
 use super::{Column, Target};
 use crate::plot::{Trace, shared_figures};
 use crate::result::Profile;

@@ -9,8 +9,8 @@
 //! The parameters are positive and often span decades, hence the logarithms. Two whose correlation is beyond [`ALIKE`] cannot
 //! be told apart by the data, one whose standard error is more than its value is not determined.
 
+mod assessment;
 mod figures;
-mod judge;
 mod parameters;
 mod target;
 
@@ -19,8 +19,8 @@ use std::ops::ControlFlow;
 pub use parameters::Parameters;
 pub use target::{Column, Level, Target};
 
-use super::converge::Judge;
-use super::{Judgement, Next, Observer, Plan, Point, StudyError};
+use super::converge::Assess;
+use super::{Assessment, Next, Observer, Plan, Point, StudyError};
 use crate::compare::{Subject, data};
 use crate::model::Registry;
 use crate::numerics::least_squares::Statistics;
@@ -148,22 +148,22 @@ fn point(parameters: &Parameters, series: &str, ln: &[f64]) -> Point {
 }
 
 /// No fit at all.
-fn failed(error: ErrorReport) -> (Vec<Point>, Judge) {
-    (Vec::new(), Box::new(move |_| Judgement { failure: Some(error), ..Judgement::default() }))
+fn failed(error: ErrorReport) -> (Vec<Point>, Assess) {
+    (Vec::new(), Box::new(move |_| Assessment { failure: Some(error), ..Assessment::default() }))
 }
 
-/// The fit: the point where it ended, and what is to be said of it.
-fn follow(parameters: Parameters, data: Subject, target: Target, observer: &dyn Observer) -> (Vec<Point>, Judge) {
+/// The fit: the point where it ended, and what is reported of it.
+fn follow(parameters: Parameters, data: Subject, target: Target, observer: &dyn Observer) -> (Vec<Point>, Assess) {
     match parameters.fit(&target, observer) {
         Err(error) => failed(error),
         Ok(fit) => {
             let series = if fit.ended.is_ok() { "fitted" } else { "last" };
             let point = point(&parameters, series, &fit.x);
             let known = target.known;
-            let of = |j| Statistics::of(&fit.residuals, j, &fit.held, known);
+            let of = |j| Statistics::of(&fit.residuals, j, &fit.at_bound, known);
             let statistics = fit.jacobian.as_ref().and_then(of);
-            let found = judge::Found { parameters, data, target, fit, statistics };
-            (vec![point], Box::new(move |rows| found.judge(rows)))
+            let found = assessment::Found { parameters, data, target, fit, statistics };
+            (vec![point], Box::new(move |rows| found.assess(rows)))
         }
     }
 }

@@ -37,6 +37,7 @@ use super::no_root;
 use crate::models::BedError;
 use crate::models::bed_error::in_si;
 use crate::models::exact::bed::{Drive, LaminarBed};
+use crate::models::exact::bed_results::Maximum;
 use crate::numerics::root::brent;
 use crate::result::SolveError;
 
@@ -45,8 +46,8 @@ use crate::result::SolveError;
 pub struct Scaled {
     /// drive -dp/dx/((rho_p - rho_f) g)
     pub f: f64,
-    /// mu_s phi: the drive that friction holds
-    pub hold: f64,
+    /// mu_s phi: the drive that friction resists
+    pub resistance: f64,
     /// eta_e/eta
     pub e: f64,
     /// bed level in H
@@ -80,15 +81,15 @@ impl Scaled {
     #[must_use]
     pub fn largest_drive(&self) -> f64 {
         if self.k.is_some() {
-            return self.hold;
+            return self.resistance;
         }
         let q = (self.h_p / (1.0 - self.h_p) + self.e).powi(2) - self.e * self.e;
-        q * self.hold / (self.e + q)
+        q * self.resistance / (self.e + q)
     }
 
     /// Depth Y \[H] of the mobile layer of the mixed form, as if the bed were deep enough.
     fn mixed_depth(&self) -> f64 {
-        let ratio = self.f * self.e / (self.hold - self.f);
+        let ratio = self.f * self.e / (self.resistance - self.f);
         (1.0 - self.h_p) * ratio / (self.e + (self.e * self.e + ratio).sqrt())
     }
 
@@ -98,8 +99,8 @@ impl Scaled {
     /// [`BedError::NoStaticBed`] if the drive exceeds the friction, [`BedError::WholeBedMoves`] in units of H if the mixed
     /// form has no static layer, [`NumericalError::NoRoot`](crate::result::NumericalError::NoRoot) if the yield level is not found.
     pub fn solve(self, see: impl FnMut(f64)) -> Result<Solution, SolveError> {
-        if self.f >= self.hold {
-            return Err(BedError::NoStaticBed { drive: self.f, limit: self.hold }.into());
+        if self.f >= self.resistance {
+            return Err(BedError::NoStaticBed { drive: self.f, limit: self.resistance }.into());
         }
         match self.k {
             None => self.mixed(),
@@ -117,7 +118,7 @@ impl Scaled {
             }
             .into());
         }
-        let b = (self.hold - self.f) / self.e;
+        let b = (self.resistance - self.f) / self.e;
         Ok(Solution {
             scaled: self,
             h_c: self.h_p - y,
@@ -130,10 +131,10 @@ impl Scaled {
     }
 
     fn two_fluid(self, k: f64, see: impl FnMut(f64)) -> Result<Solution, SolveError> {
-        let Self { f, hold, e, h_p, .. } = self;
+        let Self { f, resistance, e, h_p, .. } = self;
         let d = 1.0 - h_p;
-        let b = (hold - f) / e;
-        let slip = k * hold;
+        let b = (resistance - f) / e;
+        let slip = k * resistance;
         let layer = |h: f64, top: f64| Brinkman { seepage: k * f, length: (k * e).sqrt(), h, top };
         // Residual of no slip at the upper wall for a yield level h_c, relative to the drive of the clear fluid.
         let residual = |h_c: f64| {
@@ -191,7 +192,7 @@ impl Solution {
     /// Slip U - u_p in the mobile layer.
     #[must_use]
     pub fn slip(&self) -> f64 {
-        self.scaled.k.unwrap_or(0.0) * self.scaled.hold
+        self.scaled.k.unwrap_or(0.0) * self.scaled.resistance
     }
 
     /// Mixture velocity U(z).
@@ -237,15 +238,15 @@ impl Solution {
     /// the integral of the drag in the two-fluid form, of the drive in the mixed form.
     #[must_use]
     pub fn particle_stress(&self, z: f64) -> f64 {
-        let Scaled { hold, h_p, f, k, .. } = self.scaled;
+        let Scaled { resistance, h_p, f, k, .. } = self.scaled;
         if z > self.h_c {
-            return hold * (h_p - z);
+            return resistance * (h_p - z);
         }
         let below = match (self.static_layer, k) {
             (Some(layer), Some(k)) => layer.integral_above(z) / k,
             _ => f * (self.h_c - z),
         };
-        hold * self.mobile_depth() + below
+        resistance * self.mobile_depth() + below
     }
 
     /// Solid flux, integral of phi u_p, per phi.
@@ -263,12 +264,12 @@ impl Solution {
         self.static_layer.map_or(0.0, |layer| layer.integral_above(0.0)) + self.slip() * y + self.flux() + clear
     }
 
-    /// Elevation and value of the largest velocity.
+    /// The largest velocity.
     #[must_use]
-    pub fn largest_velocity(&self) -> (f64, f64) {
+    pub fn largest_velocity(&self) -> Maximum {
         let x = (self.tau_interface / self.scaled.f).min(1.0 - self.scaled.h_p);
-        let z = self.scaled.h_p + x;
-        (z, self.u_interface + self.tau_interface * x - 0.5 * self.scaled.f * x * x)
+        let value = self.u_interface + self.tau_interface * x - 0.5 * self.scaled.f * x * x;
+        Maximum { level: self.scaled.h_p + x, value }
     }
 }
 
@@ -280,7 +281,7 @@ pub fn solve(bed: &LaminarBed, see: impl FnMut(f64)) -> Result<Solution, SolveEr
     let weight = (bed.rho_p - bed.rho_f) * bed.g;
     let scaled = |f: f64| Scaled {
         f,
-        hold: bed.friction.stress(bed.phi),
+        resistance: bed.friction.stress(bed.phi),
         e: bed.viscosity.relative(bed.phi),
         h_p: bed.h_p / bed.h,
         k: bed.drag.map(|law| law.permeability(bed.phi, bed.d / bed.h)),

@@ -63,7 +63,7 @@ impl Model for OnMesh<LaminarBed> {
 
     fn offer(flow: &Flow, _: f64) -> Option<Offer> {
         let Flow::Laminar(scene) = flow else { return None };
-        if scene.friction.1.is_some() || scene.dilates {
+        if scene.mu_2.is_some() || scene.dilates {
             return None;
         }
         let slips = scene.k_ck.is_some();
@@ -89,7 +89,7 @@ fn keys(scene: &LaminarScene) -> Vec<String> {
         format!("bed.phi={:?}", scene.phi),
         format!("flow.height={:?}", scene.h),
         format!("flow.gravity={:?}", scene.g),
-        format!("closures.friction.mu_s={:?}", scene.friction.0),
+        format!("closures.friction.mu_s={:?}", scene.mu_s),
     ];
     match scene.drive {
         Ok(fall) => set.push(format!("flow.pressure_gradient={fall:?}")),

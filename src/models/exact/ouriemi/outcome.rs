@@ -106,7 +106,7 @@ fn balances(solution: &Solution) -> Vec<Balance> {
 #[must_use]
 pub fn equations(bed: &LaminarBed) -> String {
     let n = |x: f64| significant(x, 5);
-    let (e, hold) = (bed.viscosity.relative(bed.phi), bed.friction.stress(bed.phi));
+    let (e, resistance) = (bed.viscosity.relative(bed.phi), bed.friction.stress(bed.phi));
     let weight = (bed.rho_p - bed.rho_f) * bed.g;
     let (h_p, relative) = (bed.h_p / bed.h, viscosity_text(bed));
     let drive = match bed.drive {
@@ -118,7 +118,7 @@ pub fn equations(bed: &LaminarBed) -> String {
          units              H = {h} m,  (ρ_p - ρ_f) g H = {stress} Pa,  (ρ_p - ρ_f) g H²/η = {velocity} m/s\n\
          drive              {drive}\n\
          particle pressure  P_p = φ (h_p - z),  φ = {phi},  h_p = {h_p}\n\
-         friction           τ_p = μ_s P_p where the grains shear,  μ_s φ = {hold}\n\
+         friction           τ_p = μ_s P_p where the grains shear,  μ_s φ = {resistance}\n\
          viscosity          η_e/η = e = {relative} = {e}\n\n\
          clear fluid  h_p < z < 1     U'' + f = 0,  U(1) = 0\n",
         form = bed.form_name(),
@@ -127,7 +127,7 @@ pub fn equations(bed: &LaminarBed) -> String {
         velocity = n(bed.velocity_scale()),
         phi = n(bed.phi),
         h_p = n(h_p),
-        hold = n(hold),
+        resistance = n(resistance),
         e = n(e),
     );
     if let Some(law) = bed.drag {
@@ -140,7 +140,7 @@ pub fn equations(bed: &LaminarBed) -> String {
              \u{20}            s = U'(h_c) of the static layer,  Y = h_p - h_c,  D = 1 - h_p = {d},\n\
              \u{20}            B = (μ_s φ - f)/e\n\
              flux         q_p = φ (s Y²/2 + B Y³/6);  no grain moves while U(h_p) < K μ_s φ\n",
-            slip = n(k * hold),
+            slip = n(k * resistance),
             k = n(k),
             l = n((k * e).sqrt() * bed.h / bed.d),
             d = n(1.0 - h_p),

@@ -5,7 +5,7 @@ use approx::assert_relative_eq;
 use super::{Scaled, Solution};
 use crate::numerics::quadrature::simpson;
 
-const PAPER: Scaled = Scaled { f: 0.1, hold: 0.43 * 0.55, e: 1.0 + 2.5 * 0.55, h_p: 0.5, k: None };
+const PAPER: Scaled = Scaled { f: 0.1, resistance: 0.43 * 0.55, e: 1.0 + 2.5 * 0.55, h_p: 0.5, k: None };
 
 fn two_fluid(d: f64, f: f64) -> Scaled {
     Scaled { f, k: Some(0.45_f64.powi(3) * d * d / (180.0 * 0.55 * 0.55)), ..PAPER }
@@ -34,9 +34,9 @@ fn climb(e: f64, rhs: impl Fn(f64) -> f64, from: (f64, f64, f64), to: f64) -> (f
 
 #[test]
 fn mixed_form_by_runge_kutta_from_the_yield_level_to_the_wall() {
-    let Scaled { f, hold, e, h_p, .. } = PAPER;
+    let Scaled { f, resistance, e, h_p, .. } = PAPER;
     let solution = solve(PAPER);
-    let (u, v) = climb(e, |_| hold - f, (solution.h_c, 0.0, 0.0), h_p);
+    let (u, v) = climb(e, |_| resistance - f, (solution.h_c, 0.0, 0.0), h_p);
     assert_relative_eq!(u, solution.mixture(h_p), max_relative = 1e-11);
     // The stress is continuous, so the velocity gradient jumps by e.
     let (u, _) = climb(1.0, |_| -f, (h_p, u, e * v), 1.0);
@@ -46,9 +46,9 @@ fn mixed_form_by_runge_kutta_from_the_yield_level_to_the_wall() {
 #[test]
 fn mixed_form_flux_by_integrating_the_yield_criterion() {
     // u' = (tau - mu_s P_p)/e where positive: no use of Y, B or h_c.
-    let Scaled { f, hold, e, h_p, .. } = PAPER;
+    let Scaled { f, resistance, e, h_p, .. } = PAPER;
     let solution = solve(PAPER);
-    let excess = |z: f64| ((solution.tau_interface + (f - hold) * (h_p - z)) / e).max(0.0);
+    let excess = |z: f64| ((solution.tau_interface + (f - resistance) * (h_p - z)) / e).max(0.0);
     let u = |z: f64| simpson(excess, 0.0, z, 4000);
     let flux = simpson(u, 0.0, h_p, 4000);
     assert_relative_eq!(flux, solution.flux(), max_relative = 1e-5);
@@ -60,14 +60,14 @@ fn mixed_form_flux_by_integrating_the_yield_criterion() {
 fn two_fluid_form_by_runge_kutta_through_all_layers() {
     // Coarse grains, so that the unstable climb through the seepage keeps its digits.
     let scaled = two_fluid(1.0, 0.15);
-    let Scaled { f, hold, e, h_p, k } = scaled;
+    let Scaled { f, resistance, e, h_p, k } = scaled;
     let k = k.unwrap();
     let solution = solve(scaled);
     assert!(solution.moves());
     let start = (0.0, 0.0, solution.fluid_stress(0.0) / e);
     let (u, v) = climb(e, |u| u / k - f, start, solution.h_c);
-    assert_relative_eq!(u, k * hold, max_relative = 1e-9);
-    let (u, v) = climb(e, |_| hold - f, (solution.h_c, u, v), h_p);
+    assert_relative_eq!(u, k * resistance, max_relative = 1e-9);
+    let (u, v) = climb(e, |_| resistance - f, (solution.h_c, u, v), h_p);
     assert_relative_eq!(u, solution.mixture(h_p), max_relative = 1e-9);
     let (u, _) = climb(1.0, |_| -f, (h_p, u, e * v), 1.0);
     assert_relative_eq!(u, 0.0, epsilon = 1e-10);
@@ -76,7 +76,7 @@ fn two_fluid_form_by_runge_kutta_through_all_layers() {
 #[test]
 fn momentum_of_each_phase_by_finite_differences() {
     let scaled = two_fluid(1.0 / 30.0, 0.1);
-    let Scaled { f, hold, h_p, k, .. } = scaled;
+    let Scaled { f, resistance, h_p, k, .. } = scaled;
     let k = k.unwrap();
     let phi = 0.55;
     let solution = solve(scaled);
@@ -92,7 +92,7 @@ fn momentum_of_each_phase_by_finite_differences() {
     // Friction holds the static grains, and is spent on the moving ones.
     assert!((1..100).all(|i| {
         let z = solution.h_c * f64::from(i) / 100.0;
-        solution.particle_stress(z) < hold * (h_p - z)
+        solution.particle_stress(z) < resistance * (h_p - z)
     }));
 }
 
@@ -110,7 +110,7 @@ fn discharge_and_largest_velocity_by_quadrature() {
         let faces = [0.0, solution.h_c - 0.05, solution.h_c, scaled.h_p, 1.0];
         let integral: f64 = faces.windows(2).map(|p| simpson(|z| solution.mixture(z), p[0], p[1], 4000)).sum();
         assert_relative_eq!(integral, solution.discharge(), max_relative = 1e-9);
-        let (z, u) = solution.largest_velocity();
+        let super::Maximum { level: z, value: u } = solution.largest_velocity();
         assert_relative_eq!(u, solution.mixture(z), max_relative = 1e-13);
         assert!(u > solution.mixture(z - 1e-3) && u > solution.mixture(z + 1e-3));
     }
@@ -134,10 +134,10 @@ fn static_bed_below_the_threshold_of_the_two_fluid_form() {
 fn limits_of_the_drive_from_both_sides() {
     let limit = PAPER.largest_drive();
     let e = PAPER.e;
-    assert_relative_eq!(limit, PAPER.hold * (1.0 + 2.0 * e) / (1.0 + 3.0 * e), max_relative = 1e-14);
+    assert_relative_eq!(limit, PAPER.resistance * (1.0 + 2.0 * e) / (1.0 + 3.0 * e), max_relative = 1e-14);
     assert!(Scaled { f: 0.999_999 * limit, ..PAPER }.solve(|_| {}).is_ok());
     let over = Scaled { f: 1.000_001 * limit, ..PAPER }.solve(|_| {}).unwrap_err();
     assert_eq!(over.code(), "whole-bed-moves");
-    let over = Scaled { f: PAPER.hold, ..PAPER }.solve(|_| {}).unwrap_err();
+    let over = Scaled { f: PAPER.resistance, ..PAPER }.solve(|_| {}).unwrap_err();
     assert_eq!(over.code(), "no-static-bed");
 }

@@ -47,8 +47,8 @@ fn two_methods_agree() {
     for bn in [2.0, 20.0] {
         let cavity = Cavity::new(bn, 16, 0.5);
         let go_on = &mut |_| ControlFlow::Continue(());
-        let newton = newton::solve(&cavity.programme, &Regularisation::EXACT, go_on).unwrap();
-        let dual = dual::solve(&cavity.programme, 1e-7, 20_000, go_on).unwrap();
+        let newton = newton::solve(&cavity.program, &Regularisation::EXACT, go_on).unwrap();
+        let dual = dual::solve(&cavity.program, 1e-7, 20_000, go_on).unwrap();
         let largest = newton.x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let worst = newton.x.iter().zip(&dual.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
         println!("Bn {bn}: {} iterations, {:.1e}", dual.history.len(), worst / largest);

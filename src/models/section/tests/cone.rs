@@ -1,4 +1,4 @@
-//! The convex minimum of a section as a second-order cone programme, solved by an interior-point method that shares nothing
+//! The convex minimum of a section as a second-order cone program, solved by an interior-point method that shares nothing
 //! with ours: on small meshes both find the same velocity.
 
 use std::ops::ControlFlow;
@@ -8,7 +8,7 @@ use crate::models::section::Outline;
 use crate::models::section::cavity::Cavity;
 use crate::models::section::duct::{Duct, Filling};
 use crate::models::section::newton;
-use crate::models::section::programme::{FIXED, Programme};
+use crate::models::section::program::{FIXED, Program};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 
@@ -16,25 +16,25 @@ use clarabel::solver::{DefaultSettingsBuilder, DefaultSolver, IPSolver, SolverSt
 const TOLERANCE: f64 = 1e-10;
 
 /// The unknowns of the minimum in units of `scale`: minimise `x K x/2 - b x + sum t s` with `|B x + c| <= s`.
-fn by_cones<const D: usize, const N: usize>(programme: &Programme<D, N>, scale: f64) -> Vec<f64> {
-    let (n, points) = (programme.size(), programme.points.len());
+fn by_cones<const D: usize, const N: usize>(program: &Program<D, N>, scale: f64) -> Vec<f64> {
+    let (n, points) = (program.size(), program.points.len());
     let (mut rows, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
-    for ((i, j), value) in programme.pattern.places().zip(&programme.base) {
+    for ((i, j), value) in program.pattern.places().zip(&program.base) {
         rows.push(j);
         columns.push(i);
         values.push(*value);
     }
     let cost = CscMatrix::new_from_triplets(n + points, n + points, rows, columns, values);
-    let linear: Vec<f64> = programme
+    let linear: Vec<f64> = program
         .load
         .iter()
         .map(|b| -b / scale)
-        .chain(programme.points.iter().map(|point| point.carried / scale))
+        .chain(program.points.iter().map(|point| point.carried / scale))
         .collect();
     let (mut rows, mut columns, mut values) = (Vec::new(), Vec::new(), Vec::new());
     let mut right = Vec::new();
     let mut at = 0;
-    for (block, points) in programme.each() {
+    for (block, points) in program.each() {
         for point in points {
             let row = (D + 1) * at;
             rows.push(row);
@@ -70,20 +70,20 @@ fn by_cones<const D: usize, const N: usize>(programme: &Programme<D, N>, scale: 
     solver.solution.x[..n].iter().map(|x| x * scale).collect()
 }
 
-fn compare<const D: usize, const N: usize>(name: &str, programme: &Programme<D, N>, digits: f64) {
-    let solved = newton::solve(programme, &Regularisation::EXACT, &mut |_| ControlFlow::Continue(())).unwrap();
+fn compare<const D: usize, const N: usize>(name: &str, program: &Program<D, N>, digits: f64) {
+    let solved = newton::solve(program, &Regularisation::EXACT, &mut |_| ControlFlow::Continue(())).unwrap();
     let largest = solved.x.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let cones = by_cones(programme, largest);
+    let cones = by_cones(program, largest);
     let worst = solved.x.iter().zip(&cones).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest;
     println!("{name}: {worst:.1e} of the largest value, {} iterations", solved.history.len());
     assert!(worst < digits, "{name}: {worst}");
-    // The gap at which the cone programme ends bounds the distance from the minimum in the norm of K.
-    let mut g = vec![[0.0; D]; programme.points.len()];
-    programme.strains(&cones, &mut g);
-    let (value, least) = (programme.value(&cones, &g), programme.value(&solved.x, &solved.g));
+    // The gap at which the cone program ends bounds the distance from the minimum in the norm of K.
+    let mut g = vec![[0.0; D]; program.points.len()];
+    program.strains(&cones, &mut g);
+    let (value, least) = (program.value(&cones, &g), program.value(&solved.x, &solved.g));
     let apart: Vec<f64> = solved.x.iter().zip(&cones).map(|(a, b)| a - b).collect();
     let mut forces = vec![0.0; apart.len()];
-    programme.pattern.multiply(&programme.base, &apart, &mut forces);
+    program.pattern.multiply(&program.base, &apart, &mut forces);
     let distance = 0.5 * apart.iter().zip(&forces).map(|(a, f)| a * f).sum::<f64>();
     let gap = TOLERANCE * least.abs().max(largest * largest);
     println!(
@@ -92,15 +92,15 @@ fn compare<const D: usize, const N: usize>(name: &str, programme: &Programme<D, 
     );
     assert!(distance < 2.0 * gap, "{name}: {distance} {gap}");
     // Ours is above the minimum by no more than its own gap.
-    let own = programme.gap(&solved.g, &solved.q);
+    let own = program.gap(&solved.g, &solved.q);
     assert!(value - least < 2.0 * gap && least - value < own + 2.0 * gap, "{name}: {value} {least}, gaps {gap} {own}");
 }
 
 #[test]
-fn ducts_have_the_velocity_of_the_cone_programme() {
+fn ducts_have_the_velocity_of_the_cone_program() {
     let square = Outline::Rectangle { width: 1.0 };
     let k = 0.45_f64.powi(3) / (900.0 * 180.0 * 0.55 * 0.55);
-    let bed = |k| Filling::Bed { level: 0.5, e: 2.375, hold: 0.43 * 0.55, k };
+    let bed = |k| Filling::Bed { level: 0.5, e: 2.375, resistance: 0.43 * 0.55, k };
     for (name, shape, filling, f) in [
         ("Bingham, square", square, Filling::Bingham(0.1), 1.0),
         ("Bingham, circle", Outline::Circle, Filling::Bingham(0.1), 1.0),
@@ -108,15 +108,15 @@ fn ducts_have_the_velocity_of_the_cone_programme() {
         ("two-fluid bed", Outline::Circle, bed(Some(k)), 0.1),
     ] {
         let divided = Duct { shape, filling, f }.divide(6, 12, 1.0, None);
-        compare(name, &divided.programme, 1e-7);
+        compare(name, &divided.program, 1e-7);
     }
 }
 
 #[test]
-fn a_cavity_has_the_stream_function_of_the_cone_programme() {
+fn a_cavity_has_the_stream_function_of_the_cone_program() {
     // The minimum is flat in the stream function: the gap leaves 1.5e-6 and 1.7e-7 of it. At a tolerance of 1e-12 the
-    // interior-point method only almost solves the programme, and its answer stays the same.
+    // interior-point method only almost solves the program, and its answer stays the same.
     for bn in [2.0, 20.0] {
-        compare("cavity", &Cavity::new(bn, 12, 0.5).programme, 2e-6);
+        compare("cavity", &Cavity::new(bn, 12, 0.5).program, 2e-6);
     }
 }

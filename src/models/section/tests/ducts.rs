@@ -25,7 +25,11 @@ fn bingham(shape: Outline, y: f64) -> Duct {
 /// The bed of the shipped cases: phi 0.55, mu_s 0.43, f 0.1, H/d 30.
 fn bed(shape: Outline, slips: bool) -> Duct {
     let k = 0.45_f64.powi(3) / (900.0 * 180.0 * 0.55 * 0.55);
-    Duct { shape, filling: Filling::Bed { level: 0.5, e: 2.375, hold: 0.43 * 0.55, k: slips.then_some(k) }, f: 0.1 }
+    Duct {
+        shape,
+        filling: Filling::Bed { level: 0.5, e: 2.375, resistance: 0.43 * 0.55, k: slips.then_some(k) },
+        f: 0.1,
+    }
 }
 
 fn solve(duct: &Duct, rows: usize, law: &Regularisation, how: &SectionMethod) -> Solution {
@@ -180,12 +184,13 @@ fn exact_graded(duct: &Duct, rows: usize) -> Solution {
 #[test]
 fn every_regularisation_tends_to_the_exact_yield_and_creeps_before() {
     let duct = bingham(SQUARE, 0.1);
-    let truth = exact(&duct, 16);
+    let unsmoothed = exact(&duct, 16);
     for law in [Smoothing::Simple, Smoothing::BercovierEngelman, Smoothing::Papanastasiou] {
         let error = |lambda: f64| {
             let solution = solve(&duct, 16, &Regularisation { law, lambda }, &HOW);
-            let worst = solution.solved.x.iter().zip(&truth.solved.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
-            (worst / u_max(&truth), flow_rate(&solution) - flow_rate(&truth))
+            let worst =
+                solution.solved.x.iter().zip(&unsmoothed.solved.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
+            (worst / u_max(&unsmoothed), flow_rate(&solution) - flow_rate(&unsmoothed))
         };
         let (coarse, fine) = (error(1e-4), error(1e-6));
         println!("{law:?}: {coarse:?} {fine:?}");
@@ -196,7 +201,7 @@ fn every_regularisation_tends_to_the_exact_yield_and_creeps_before() {
     // Bercovier and Engelman's law is several times closer than the paper's.
     let at = |law| {
         let solution = solve(&duct, 16, &Regularisation { law, lambda: 1e-6 }, &HOW);
-        flow_rate(&solution) - flow_rate(&truth)
+        flow_rate(&solution) - flow_rate(&unsmoothed)
     };
     assert!(at(Smoothing::Simple) > 3.0 * at(Smoothing::BercovierEngelman));
 }
@@ -204,24 +209,24 @@ fn every_regularisation_tends_to_the_exact_yield_and_creeps_before() {
 #[test]
 fn the_first_order_method_agrees_within_its_duality_gap() {
     // The error goes like the root of the gap. Grains without viscosity of their own, over a drag that is stiff, take
-    // 46,000 iterations to a gap of 1e-6 and more than 100,000 to 1e-7: there the cone programme is the second method.
+    // 46,000 iterations to a gap of 1e-6 and more than 100,000 to 1e-7: there the cone program is the second method.
     for (duct, tolerance, digits) in
         [(bingham(SQUARE, 0.1), 1e-9, 1e-6), (bed(SQUARE, false), 1e-9, 1e-7), (bed(Outline::Circle, true), 1e-6, 5e-4)]
     {
         let divided = duct.divide(8, 16, 1.0, None);
         let go_on = &mut |_| ControlFlow::Continue(());
-        let newton = newton::solve(&divided.programme, &Regularisation::EXACT, go_on).unwrap();
-        let dual = dual::solve(&divided.programme, tolerance, 60_000, go_on).unwrap();
+        let newton = newton::solve(&divided.program, &Regularisation::EXACT, go_on).unwrap();
+        let dual = dual::solve(&divided.program, tolerance, 60_000, go_on).unwrap();
         let largest = newton.x.iter().fold(0.0_f64, |m, x| m.max(*x));
         let worst = newton.x.iter().zip(&dual.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest;
         println!("{} iterations, {worst:.1e} of the largest velocity", dual.history.len());
         assert!(worst < digits, "{worst}");
         // Both values of the convex minimum, and the dual between them.
-        let mut g = vec![[0.0; 2]; divided.programme.points.len()];
-        divided.programme.strains(&dual.x, &mut g);
-        let (a, b) = (divided.programme.value(&newton.x, &newton.g), divided.programme.value(&dual.x, &g));
+        let mut g = vec![[0.0; 2]; divided.program.points.len()];
+        divided.program.strains(&dual.x, &mut g);
+        let (a, b) = (divided.program.value(&newton.x, &newton.g), divided.program.value(&dual.x, &g));
         assert!(a <= b + 1e-12 * b.abs(), "Newton's method is above: {a} {b}");
-        let work: f64 = dual.x.iter().zip(&divided.programme.load).map(|(x, b)| x * b).sum();
+        let work: f64 = dual.x.iter().zip(&divided.program.load).map(|(x, b)| x * b).sum();
         assert!(b - a <= 1.01 * tolerance * work, "{a} {b}");
     }
 }
@@ -254,7 +259,7 @@ fn the_depth_of_grains_that_slip_converges_where_the_mesh_resolves_both_sides_of
     for shape in [SQUARE, Outline::Circle] {
         let on = |rows: usize| {
             let numbers = Numbers::of(&exact(&bed(shape, true), rows));
-            [numbers.flow_rate, numbers.grains, numbers.u_max.1, numbers.mobile]
+            [numbers.flow_rate, numbers.grains, numbers.u_max.value, numbers.mobile]
         };
         let (coarse, fine) = (on(24), on(48));
         let changes: Vec<f64> = coarse.iter().zip(fine).map(|(a, b)| (a / b - 1.0).abs()).collect();
@@ -268,7 +273,7 @@ fn iterations_hardly_depend_on_the_mesh() {
     let counts = |duct: &Duct| {
         let on = |rows: usize| {
             let divided = duct.divide(rows / 2, rows, 1.0, None);
-            let solved = newton::solve(&divided.programme, &Regularisation::EXACT, &mut |_| ControlFlow::Continue(()));
+            let solved = newton::solve(&divided.program, &Regularisation::EXACT, &mut |_| ControlFlow::Continue(()));
             solved.unwrap().history.len()
         };
         [on(12), on(24), on(48)]

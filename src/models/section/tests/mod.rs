@@ -8,10 +8,10 @@ mod whole;
 use crate::case::CaseError;
 use crate::model::Checked;
 use crate::models::builtin;
-use crate::models::section::programme::{Programme, length};
+use crate::models::section::program::{Program, length};
 use crate::result::{Context, Outcome};
 
-impl<const D: usize, const N: usize> Programme<D, N> {
+impl<const D: usize, const N: usize> Program<D, N> {
     /// `x K x/2 - b x + sum t |B x + c|`, with the rates of strain `g` of `x`.
     fn value(&self, x: &[f64], g: &[[f64; D]]) -> f64 {
         let mut kx = vec![0.0; self.size()];

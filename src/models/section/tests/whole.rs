@@ -16,7 +16,7 @@ const PAPER: Regularisation = Regularisation { law: Smoothing::Simple, lambda: 1
 fn both(duct: &Duct, rows: usize, weight: f64, law: &Regularisation) -> (Whole, f64) {
     let divided = duct.divide(rows / 2, rows, 1.0, None);
     let go_on = &mut |_| ControlFlow::Continue(());
-    let section = newton::solve(&divided.programme, law, go_on).unwrap();
+    let section = newton::solve(&divided.program, law, go_on).unwrap();
     let whole = Full::new(&divided, 2, weight).solve(law, go_on).unwrap();
     let largest = section.x.iter().fold(0.0_f64, |m, x| m.max(*x));
     let apart = section.x.iter().zip(&whole.section.x).fold(0.0_f64, |m, (a, b)| m.max((a - b).abs()));
@@ -26,7 +26,7 @@ fn both(duct: &Duct, rows: usize, weight: f64, law: &Regularisation) -> (Whole, 
 
 #[test]
 fn the_whole_duct_over_a_bed_has_the_velocity_of_its_section_and_the_pressure_of_the_grains() {
-    let filling = Filling::Bed { level: 0.5, e: 2.375, hold: 0.43 * 0.55, k: None };
+    let filling = Filling::Bed { level: 0.5, e: 2.375, resistance: 0.43 * 0.55, k: None };
     for shape in [Outline::Rectangle { width: 1.0 }, Outline::Circle] {
         let (whole, apart) = both(&Duct { shape, filling, f: 0.1 }, 8, 0.55, &PAPER);
         assert!(apart < 1e-8, "{shape:?}: {apart}");

@@ -87,14 +87,14 @@ fn friction_at_rest_is_found_in_a_few_turns() {
         let (rate, viscosity) = (1e-8, 1e-3);
         let (mut shear, mut r) = (start, Mobilised::default());
         let balance = |shear: f64, value: f64| value + viscosity * shear - load;
-        let mut turns = 0;
+        let mut iterations = 0;
         while balance(shear, r.law(shear, rate).0).abs() > 1e-12 {
             let (value, slope) = r.law(shear, rate);
             let to = shear - balance(shear, value) / (slope + viscosity);
             r = r.after(shear, to - shear, rate);
             shear = to;
-            turns += 1;
-            assert!(turns < 60, "{load} from {start}: {shear} {r:?}");
+            iterations += 1;
+            assert!(iterations < 60, "{load} from {start}: {shear} {r:?}");
         }
         assert!((f64::constant(r.0) - load).abs() < 1e-2);
     }

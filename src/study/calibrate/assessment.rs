@@ -1,4 +1,4 @@
-//! What a fit says: each parameter with its error, the pairs that cannot be told apart, table and figures.
+//! What a fit reports: each parameter with its error, the pairs that cannot be told apart, table and figures.
 
 use serde_json::{Value, json};
 
@@ -6,7 +6,7 @@ use super::{ALIKE, Parameters, Target, Unfit, report};
 use crate::compare::{Subject, percent};
 use crate::numerics::least_squares::{Ended, Fit, Statistics};
 use crate::result::ErrorReport;
-use crate::study::{Judgement, Numbers, Row};
+use crate::study::{Assessment, Numbers, Row};
 use crate::units::significant;
 
 /// Distance of χ² from its mean, and of the correlation of neighbouring residuals from none, that is no chance any more
@@ -23,7 +23,7 @@ pub(super) struct Found {
     pub data: Subject,
     pub target: Target,
     pub fit: Fit<ErrorReport>,
-    /// `None` where nothing can be said of the errors
+    /// `None` where the errors are not known
     pub statistics: Option<Statistics>,
 }
 
@@ -35,7 +35,7 @@ struct Fitted<'a> {
     bounds: (f64, f64),
     value: f64,
     /// the bound that holds it
-    held: Option<&'static str>,
+    at_bound: Option<&'static str>,
     error: Option<f64>,
     interval: Option<(f64, f64)>,
 }
@@ -48,7 +48,7 @@ impl Fitted<'_> {
 }
 
 impl Found {
-    pub fn judge(&self, rows: &[Row]) -> Judgement {
+    pub fn assess(&self, rows: &[Row]) -> Assessment {
         let fitted = self.fitted();
         let known = self.target.known;
         let weights = if known {
@@ -58,18 +58,18 @@ impl Found {
              errors follow from the residuals"
         };
         let columns: Vec<&str> = self.target.columns.iter().map(|c| c.quantity.title).collect();
-        let mut judgement = Judgement {
+        let mut assessment = Assessment {
             subtitle: format!("{} values of {}; {weights}.", self.target.count(), columns.join(", ")),
             findings: self.findings(&fitted),
             figures: self.figures(rows),
             failure: self.fit.ended.as_ref().err().map(|ended| self.failure(ended)),
-            ..Judgement::default()
+            ..Assessment::default()
         };
         for (name, fact) in [("parameters", self.parameter_facts(&fitted)), ("fit", self.fit_facts())] {
-            judgement.facts.insert(name.into(), fact);
+            assessment.facts.insert(name.into(), fact);
         }
-        judgement.parameters = Some(self.table(&fitted, weights));
-        judgement
+        assessment.parameters = Some(self.table(&fitted, weights));
+        assessment
     }
 
     fn fitted(&self) -> Vec<Fitted<'_>> {
@@ -86,7 +86,7 @@ impl Found {
                 start: start[i],
                 bounds: bounds[i],
                 value,
-                held: self.fit.held[i].then_some(side),
+                at_bound: self.fit.at_bound[i].then_some(side),
                 error: ln.map(|ln| value * ln).filter(|e| e.is_finite()),
                 interval: ln
                     .map(|ln| (value * (-quantile * ln).exp(), value * (quantile * ln).exp()))
@@ -109,7 +109,7 @@ impl Found {
                     significant(low, 4),
                     significant(high, 4)
                 ),
-                _ => match one.held {
+                _ => match one.at_bound {
                     Some(side) => format!(
                         "{} from {}: its {side} bound; the data want it beyond, so it has no error, and those of others take it as known",
                         significant(one.value, 4),
@@ -136,11 +136,11 @@ impl Found {
                 );
                 say("not told apart", text);
             }
-            for one in fitted.iter().filter(|one| one.held.is_none() && one.error.is_none_or(|e| e > one.value)) {
+            for one in fitted.iter().filter(|one| one.at_bound.is_none() && one.error.is_none_or(|e| e > one.value)) {
                 let text = format!("{}: its standard error is more than its value; leave it as it is", one.name);
                 say("not determined", text);
             }
-            if fitted.iter().filter(|one| one.held.is_none()).count() > 1 {
+            if fitted.iter().filter(|one| one.at_bound.is_none()).count() > 1 {
                 let (direction, error) = &statistics.weakest;
                 let free = fitted.iter().zip(direction).filter(|(_, power)| power.abs() >= 0.005);
                 let powers: Vec<String> = free.map(|(one, power)| format!("{}^{power:.2}", one.name)).collect();
@@ -210,7 +210,7 @@ impl Found {
 
     /// Values less free parameters.
     fn freedom(&self) -> usize {
-        self.target.count().saturating_sub(self.fit.held.iter().filter(|held| !**held).count())
+        self.target.count().saturating_sub(self.fit.at_bound.iter().filter(|at_bound| !**at_bound).count())
     }
 
     /// χ² per degree of freedom.
@@ -235,7 +235,7 @@ impl Found {
         let one = |(i, p): (usize, &Fitted<'_>)| {
             json!({
                 "key": p.key, "start": p.start, "value": p.value, "stderr": p.error,
-                "lower": p.bound(0), "upper": p.bound(1), "held_by": p.held,
+                "lower": p.bound(0), "upper": p.bound(1), "held_by": p.at_bound,
                 "low": p.interval.map(|x| x.0), "high": p.interval.map(|x| x.1),
                 "correlations": self.statistics.as_ref().map(|s| s.correlations[i].clone()),
             })

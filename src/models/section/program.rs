@@ -23,7 +23,7 @@ pub const FIXED: u32 = u32::MAX;
 
 /// A convex minimum with `D` components of strain, each point of which knows `N` unknowns.
 #[derive(Clone, Debug)]
-pub struct Programme<const D: usize, const N: usize> {
+pub struct Program<const D: usize, const N: usize> {
     /// entries of the matrix
     pub pattern: Pattern,
     /// order of elimination
@@ -112,7 +112,7 @@ pub fn length<const D: usize>(g: &[f64; D]) -> f64 {
     g.iter().map(|a| a * a).sum::<f64>().sqrt()
 }
 
-impl<const D: usize, const N: usize> Programme<D, N> {
+impl<const D: usize, const N: usize> Program<D, N> {
     /// Number of unknowns.
     #[must_use]
     pub fn size(&self) -> usize {

@@ -7,25 +7,40 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use super::Verdict;
-use super::table::SCENES;
+use super::table::ADVICE_TESTS;
 use crate::advise::{self, Least};
 use crate::model::Registry;
 use crate::result::Context;
 use crate::units::significant;
 
-/// What the answer of a scene is.
+/// What the advice is compared with.
 #[derive(Clone, Copy, Debug)]
-pub enum Truth {
+pub enum Reference {
     /// a closed form or a fine solution: case and what is changed in it
     Exact(&'static str, &'static [&'static str]),
-    /// a measured or grain-resolved value with its error, and value and time \[s] of the grain-resolved run of the scene: it takes too
-    /// long to be made again here
-    Known(f64, f64, Option<(f64, f64)>),
+    /// a measured or grain-resolved value
+    Known {
+        /// the value
+        value: f64,
+        /// its standard error
+        stderr: f64,
+        /// the grain-resolved run of the flow, which takes too long to be made again here
+        run: Option<Run>,
+    },
+}
+
+/// A grain-resolved run that was made before.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// its answer
+    pub value: f64,
+    /// its time \[s]
+    pub seconds: f64,
 }
 
 /// A model of the same scene.
 #[derive(Clone, Copy, Debug)]
-pub struct Rival {
+pub struct Candidate {
     /// what it is
     pub name: &'static str,
     /// its case
@@ -34,9 +49,9 @@ pub struct Rival {
     pub set: &'static [&'static str],
 }
 
-/// A scene whose answer is known.
+/// A scene whose answer is known, on which advice is tested.
 #[derive(Clone, Copy, Debug)]
-pub struct Scene {
+pub struct AdviceTest {
     /// what it is
     pub name: &'static str,
     /// the case that is advised on
@@ -45,16 +60,16 @@ pub struct Scene {
     pub set: &'static [&'static str],
     /// largest relative error that is wanted
     pub tolerance: f64,
-    /// the number that is judged
+    /// the number that is assessed
     pub quantity: &'static str,
     /// its value
-    pub truth: Truth,
+    pub reference: Reference,
     /// where that comes from
     pub source: &'static str,
     /// the other models of the scene
-    pub rivals: &'static [Rival],
+    pub candidates: &'static [Candidate],
     /// a term that the advice keeps: its name there, and the scene without it
-    pub kept: Option<(&'static str, Rival)>,
+    pub kept: Option<(&'static str, Candidate)>,
 }
 
 /// Two numbers, or why there are none.
@@ -69,15 +84,15 @@ pub struct Answer {
     pub found: Found,
 }
 
-/// A scene with what came of the advice on it.
+/// A test of the advice with what came of it.
 #[derive(Clone, Debug)]
-pub struct Judged {
-    /// the scene
-    pub scene: Scene,
+pub struct Assessed {
+    /// the test
+    pub test: AdviceTest,
     /// the advised model
     pub advised: Answer,
     /// the others
-    pub rivals: Vec<Answer>,
+    pub candidates: Vec<Answer>,
     /// the scene without the term that is kept
     pub without: Option<Answer>,
     /// whether no other model is as good and faster
@@ -86,10 +101,10 @@ pub struct Judged {
     pub verdict: Verdict,
 }
 
-/// Asks for advice on each scene and solves what it and its rivals say.
+/// Asks for advice on each scene and solves the model that it names and the candidates.
 #[must_use]
-pub fn judge(registry: &Registry) -> Vec<Judged> {
-    SCENES.iter().map(|scene| one(registry, *scene)).collect()
+pub fn assess(registry: &Registry) -> Vec<Assessed> {
+    ADVICE_TESTS.iter().map(|test| one(registry, *test)).collect()
 }
 
 fn owned(set: &[&str]) -> Vec<String> {
@@ -113,91 +128,96 @@ fn solve(registry: &Registry, case: &str, set: &[String], quantity: &str) -> Fou
     Ok((value.ok_or_else(|| format!("{quantity} is not defined"))?, best))
 }
 
-fn one(registry: &Registry, scene: Scene) -> Judged {
-    let truth = match scene.truth {
-        Truth::Exact(case, set) => solve(registry, case, &owned(set), scene.quantity).map(|(value, _)| (value, 0.0)),
-        Truth::Known(value, error, _) => Ok((value, error)),
+fn one(registry: &Registry, test: AdviceTest) -> Assessed {
+    let reference = match test.reference {
+        Reference::Exact(case, set) => solve(registry, case, &owned(set), test.quantity).map(|(value, _)| (value, 0.0)),
+        Reference::Known { value, stderr, .. } => Ok((value, stderr)),
     };
-    let known = truth.as_ref().map_or(0.0, |(value, error)| if *value == 0.0 { *error } else { (error / value).abs() });
+    let known =
+        reference.as_ref().map_or(0.0, |(value, error)| if *value == 0.0 { *error } else { (error / value).abs() });
     let answer = |name: &str, found: Found| {
-        let error = |value: f64, truth: f64| if truth == 0.0 { value.abs() } else { (value / truth - 1.0).abs() };
-        let found = found.and_then(|(value, time)| Ok((error(value, truth.clone()?.0), time)));
+        let error =
+            |value: f64, reference: f64| if reference == 0.0 { value.abs() } else { (value / reference - 1.0).abs() };
+        let found = found.and_then(|(value, time)| Ok((error(value, reference.clone()?.0), time)));
         Answer { name: name.into(), found }
     };
-    let set = owned(scene.set);
-    let advice = advise::advise(registry, scene.case, &set, scene.tolerance);
+    let set = owned(test.set);
+    let advice = advise::advise(registry, test.case, &set, test.tolerance);
     let advised = match &advice {
         Err(error) => Answer { name: "no advice".into(), found: Err(error.to_string()) },
-        Ok(advice) => advised(registry, &scene, &advice.least, &set, &answer),
+        Ok(advice) => advised(registry, &test, &advice.least, &set, &answer),
     };
-    let rival = |rival: &Rival| answer(rival.name, solve(registry, rival.case, &owned(rival.set), scene.quantity));
-    let rivals: Vec<Answer> = scene.rivals.iter().map(rival).collect();
-    let without = scene.kept.map(|(_, dropped)| rival(&dropped));
-    let good = |answer: &Answer| answer.found.as_ref().is_ok_and(|(error, _)| *error <= scene.tolerance.hypot(known));
+    let candidate = |candidate: &Candidate| {
+        answer(candidate.name, solve(registry, candidate.case, &owned(candidate.set), test.quantity))
+    };
+    let candidates: Vec<Answer> = test.candidates.iter().map(candidate).collect();
+    let without = test.kept.map(|(_, dropped)| candidate(&dropped));
+    let good = |answer: &Answer| answer.found.as_ref().is_ok_and(|(error, _)| *error <= test.tolerance.hypot(known));
     let faster = |other: &&Answer| match (&other.found, &advised.found) {
         (Ok((_, time)), Ok((_, own))) => good(other) && time < own && other.name != advised.name,
         _ => false,
     };
-    let front = good(&advised) && rivals.iter().find(faster).is_none();
+    let front = good(&advised) && candidates.iter().find(faster).is_none();
     let keeps = |what: &str| advice.as_ref().is_ok_and(|a| a.terms.iter().any(|term| term.what == what && term.keep));
-    let kept = scene.kept.is_none_or(|(what, _)| keeps(what)) && !without.as_ref().is_some_and(good);
+    let kept = test.kept.is_none_or(|(what, _)| keeps(what)) && !without.as_ref().is_some_and(good);
     let verdict = if front && kept { Verdict::Green } else { Verdict::Red };
-    Judged { scene, advised, rivals, without, front, verdict }
+    Assessed { test, advised, candidates, without, front, verdict }
 }
 
-/// What the advised model makes of the scene; grains are not run: they are the truth there, with its error and time.
+/// What the advised model makes of the scene; grains are not run: they are the reference there, with its error and time.
 fn advised(
     registry: &Registry,
-    scene: &Scene,
+    test: &AdviceTest,
     least: &Least,
     set: &[String],
     answer: &dyn Fn(&str, Found) -> Answer,
 ) -> Answer {
-    if let (Truth::Known(value, error, Some(run)), true) = (scene.truth, least.stochastic) {
-        // A run that is the truth is as good as that is known.
-        let Answer { name, found } = answer(least.kind, Ok(run));
-        return Answer { name, found: found.map(|(deviation, time)| (deviation.max((error / value).abs()), time)) };
+    if let (Reference::Known { value, stderr, run: Some(run) }, true) = (test.reference, least.stochastic) {
+        // A run that is the reference is as good as that is known.
+        let Answer { name, found } = answer(least.kind, Ok((run.value, run.seconds)));
+        return Answer { name, found: found.map(|(deviation, time)| (deviation.max((stderr / value).abs()), time)) };
     }
     let found = match &least.overrides {
-        Some(overrides) => solve(registry, least.template, overrides, scene.quantity),
-        None => solve(registry, scene.case, set, scene.quantity),
+        Some(overrides) => solve(registry, least.template, overrides, test.quantity),
+        None => solve(registry, test.case, set, test.quantity),
     };
     answer(least.kind, found)
 }
 
 /// The table as Markdown, a section of `docs/validation.md`.
 #[must_use]
-pub fn markdown(judged: &[Judged]) -> String {
+pub fn markdown(assessed: &[Assessed]) -> String {
     let mut text = String::from(
         "\n# Advice\n\n`bedload advise` on scenes whose answer is known. The model that it names has to answer within the tolerance (and the error of \
          what is known, as a sum of squares), and no other one as well in less time; where it keeps a term, the scene without that term has to miss the \
-         tolerance. Errors are of the number in the second column; grains take the time of the run that is the truth.\n\n\
-         | scene | number | tolerance | advised | its error | others | the term that is kept, and the error without it | verdict | truth |\n\
+         tolerance. Errors are of the number in the second column; grains take the time of the run that is the reference.\n\n\
+         | scene | number | tolerance | advised | its error | others | the term that is kept, and the error without it | verdict | reference |\n\
          |---|---|---|---|---|---|---|---|---|\n",
     );
     let of = |answer: &Answer| match &answer.found {
         Ok((error, time)) => format!("{}, {}", per_cent(*error), seconds(*time)),
         Err(reason) => reason.clone(),
     };
-    for row in judged {
-        let scene = &row.scene;
-        let others: Vec<String> = row.rivals.iter().map(|rival| format!("{}: {}", rival.name, of(rival))).collect();
-        let kept = match (&scene.kept, &row.without) {
+    for row in assessed {
+        let test = &row.test;
+        let others: Vec<String> =
+            row.candidates.iter().map(|candidate| format!("{}: {}", candidate.name, of(candidate))).collect();
+        let kept = match (&test.kept, &row.without) {
             (Some((what, _)), Some(without)) => format!("{what}: {}", of(without)),
             _ => "-".into(),
         };
         let _ = writeln!(
             text,
             "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
-            scene.name,
-            scene.quantity,
-            per_cent(scene.tolerance),
+            test.name,
+            test.quantity,
+            per_cent(test.tolerance),
             row.advised.name,
             of(&row.advised),
             if others.is_empty() { "-".into() } else { others.join("; ") },
             kept,
             row.verdict.word(),
-            scene.source,
+            test.source,
         );
     }
     text
@@ -226,16 +246,16 @@ mod tests {
 
     #[test]
     fn advice_is_right_on_every_scene() {
-        let judged = judge(&crate::models::builtin());
-        for row in &judged {
+        let assessed = assess(&crate::models::builtin());
+        for row in &assessed {
             assert_eq!(row.verdict, Verdict::Green, "{row:#?}");
         }
-        let exact = |row: &&Judged| {
-            let measured = row.scene.source.starts_with("measured");
-            measured || row.scene.source.starts_with("closed form")
+        let exact = |row: &&Assessed| {
+            let measured = row.test.source.starts_with("measured");
+            measured || row.test.source.starts_with("closed form")
         };
-        assert!(judged.len() >= 12);
-        assert!(judged.iter().filter(exact).count() >= 4);
-        assert!(judged.iter().filter(|row| row.scene.kept.is_some()).count() >= 3);
+        assert!(assessed.len() >= 12);
+        assert!(assessed.iter().filter(exact).count() >= 4);
+        assert!(assessed.iter().filter(|row| row.test.kept.is_some()).count() >= 3);
     }
 }
