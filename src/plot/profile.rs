@@ -276,7 +276,7 @@ fn distinct(lines: Vec<Line>) -> Vec<Line> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{profile_figures, trials};
+    use super::super::{profile_figures, samples};
     use super::*;
 
     fn names(panel: &Panel) -> Vec<&str> {
