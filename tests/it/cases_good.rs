@@ -208,7 +208,7 @@ fn every_law_of_every_model_resolves_to_itself() {
         laws(&schema["properties"]["closures"], "closures", &mut settings);
         for setting in settings {
             // A law within a law is one of the first that has it.
-            let Ok(case) = Case::load(kinds, name, &[setting.clone()]) else {
+            let Ok(case) = Case::load(kinds, name, std::slice::from_ref(&setting)) else {
                 assert!(setting.split('=').next().unwrap().matches('.').count() > 1, "{name}: {setting}");
                 continue;
             };
