@@ -97,7 +97,7 @@ impl Verb for Compare {
             solve_s: comparison.subjects.iter().map(|s| s.solve_s).sum(),
             total_s: start.elapsed().as_secs_f64(),
             peak_memory_mb: peak_memory_mb(),
-            work_units: comparison.subjects.iter().map(|s| s.profile.rows() as f64).sum(),
+            work_units: comparison.subjects.iter().map(|s| s.work).sum(),
             ..Cost::default()
         };
         let figures = comparison.figures();
@@ -211,7 +211,9 @@ impl Compare {
 /// Runs a case. A failure ends the comparison, for what is left of it would not be what was asked for.
 fn solve(case: &Case, problem: &Problem, progress: &mut Progress) -> Result<Subject, CliError> {
     let solving = Instant::now();
-    let outcome = problem.run(&mut Context::new(progress)).map_err(|failure| {
+    let solved = problem.solve(&mut Context::new(progress));
+    let solve_s = solving.elapsed().as_secs_f64();
+    let outcome = problem.complete(solved).map_err(|failure| {
         let error = ErrorReport {
             code: failure.error.code().into(),
             message: format!("{}: {}", case.source, failure.error),
@@ -225,7 +227,6 @@ fn solve(case: &Case, problem: &Problem, progress: &mut Progress) -> Result<Subj
     if outcome.status == Status::Stopped {
         return Err(CliError::Stopped(json!({ "status": Status::Stopped }), false));
     }
-    let solve_s = solving.elapsed().as_secs_f64();
     Ok(Subject::of_case(&case.name, &case.source, problem.model_name(), outcome, solve_s)?)
 }
 

@@ -201,6 +201,7 @@ pub fn parse(text: &str, stem: &str, source: &str) -> Result<Subject, DataFault>
         results: serde_json::from_value::<Results>(results.into()).unwrap_or_default(),
         validity: Vec::new(),
         solve_s: 0.0,
+        work: 0.0,
     })
 }
 

@@ -65,6 +65,8 @@ pub struct Subject {
     pub validity: Vec<Validity>,
     /// time that its solver took, if it was run for the comparison \[s]
     pub solve_s: f64,
+    /// cells or grains times steps, if it was run for the comparison
+    pub work: f64,
 }
 
 /// Why there is nothing to compare, or not like this.
@@ -175,11 +177,11 @@ impl Subject {
         solve_s: f64,
     ) -> Result<Self, CompareError> {
         let profile = outcome.profile.ok_or_else(|| CompareError::NoProfile { subject: source.into() })?;
-        let Outcome { results, validity, .. } = outcome;
+        let Outcome { results, validity, work, .. } = outcome;
         let (name, source) = (name.into(), source.into());
         let (kind, notes) = (Kind::Case, Vec::new());
         let errors = profile.standard_errors();
-        Ok(Self { name, label: model, kind, source, notes, profile, errors, results, validity, solve_s })
+        Ok(Self { name, label: model, kind, source, notes, profile, errors, results, validity, solve_s, work })
     }
 
     /// A run as its folder `source` holds it.
@@ -194,7 +196,7 @@ impl Subject {
         let Summary { results, validity, case: name, model: label, .. } = summary;
         let (kind, source, notes) = (Kind::Run, source.into(), Vec::new());
         let errors = profile.standard_errors();
-        Ok(Self { name, label, kind, source, notes, profile, errors, results, validity, solve_s: 0.0 })
+        Ok(Self { name, label, kind, source, notes, profile, errors, results, validity, solve_s: 0.0, work: 0.0 })
     }
 
     fn lacks(&self, quantity: &'static Quantity, needed_by: &'static str) -> CompareError {

@@ -24,6 +24,7 @@ pub(super) fn bed(name: &str, level: f64) -> Subject {
         results,
         validity: Vec::new(),
         solve_s: 0.0,
+        work: 0.0,
     }
 }
 

@@ -198,6 +198,15 @@ fn a_folder_that_is_not_this_comparison_is_refused() {
 }
 
 #[test]
+fn the_work_of_a_comparison_is_that_of_its_runs() {
+    let scratch = Scratch::new();
+    let work = |args: &[&str]| answer(&scratch, &[args, &["--json"]].concat())["cost"]["work_units"].as_f64().unwrap();
+    let runs = work(&["run", TWO, "--out", "a"]) + work(&["run", MIXED, "--out", "b"]);
+    assert!(runs > 0.0);
+    assert_eq!(work(&["compare", TWO, MIXED, "--out", "c"]), runs);
+}
+
+#[test]
 fn nothing_from_data_becomes_markup() {
     let scratch = Scratch::new();
     let text = "# </title><script>alert(1)</script>\nz_m,u_mixture_m_s\n0,0\n0.01,0.02\n";
