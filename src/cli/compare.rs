@@ -64,7 +64,7 @@ enum Datum {
 /// Something to compare, checked but not yet run.
 enum Loaded {
     Case(Box<(Case, Problem)>),
-    Ready(Subject),
+    Ready(Box<Subject>),
 }
 
 impl Verb for Compare {
@@ -87,7 +87,7 @@ impl Verb for Compare {
         let mut subjects = Vec::with_capacity(given);
         for one in loaded {
             subjects.push(match one {
-                Loaded::Ready(subject) => subject,
+                Loaded::Ready(subject) => *subject,
                 Loaded::Case(case) => solve(&case.0, &case.1, &mut progress)?,
             });
         }
@@ -140,7 +140,7 @@ impl Compare {
             if path.is_dir() {
                 let (summary, profile) = read_run(path)?;
                 names.push(path.file_name().map_or(summary.case.clone(), |n| n.to_string_lossy().into_owned()));
-                loaded.push(Loaded::Ready(Subject::of_run(argument, summary, profile)?));
+                loaded.push(Loaded::Ready(Box::new(Subject::of_run(argument, summary, profile)?)));
             } else if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
                 let message = format!("{argument} is a table, not a case or a run");
                 return Err(CliError::Usage { message, hint: format!("give it as --data {argument}") });
@@ -152,7 +152,7 @@ impl Compare {
         }
         for file in &self.data {
             let path = Path::new(file);
-            loaded.push(Loaded::Ready(data::read(path).map_err(CompareError::from)?));
+            loaded.push(Loaded::Ready(Box::new(data::read(path).map_err(CompareError::from)?)));
             names.push(path.file_stem().map_or_else(|| "data".into(), |s| s.to_string_lossy().into_owned()));
         }
         Ok((loaded, names))

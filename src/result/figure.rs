@@ -222,4 +222,20 @@ mod tests {
         assert_eq!(figure.pieces(&panel, &panel.curves[0])[1], [(-3.0, 3.0), (4.0, 4.0)]);
         assert!(!panel.x.holds(f64::NAN) && !panel.x.holds(f64::INFINITY) && !panel.x.holds(1e300));
     }
+
+    #[test]
+    fn numbers_that_are_none_become_gaps_and_the_figure_reads_back() {
+        let curve = Curve {
+            points: vec![Some((1.0, 2.0)), Some((f64::NAN, 1.0)), Some((1.0, f64::INFINITY)), None],
+            errors: vec![Some(0.1), Some(f64::NAN), None, None],
+            ..Curve::default()
+        };
+        let panels = vec![Panel { x: Axis::linear("u", "m/s"), curves: vec![curve] }];
+        let (y, stem) = (Axis::elevation("m"), "f".to_owned());
+        let figure = Figure { stem, caption: String::new(), y, panels, levels: Vec::new(), tint_below: None }.finite();
+        assert_eq!(figure.panels[0].curves[0].points, [Some((1.0, 2.0)), None, None, None]);
+        assert_eq!(figure.panels[0].curves[0].errors, [Some(0.1), None, None, None]);
+        let text = serde_json::to_string(&figure).unwrap();
+        assert_eq!(serde_json::from_str::<Figure>(&text).unwrap(), figure);
+    }
 }
