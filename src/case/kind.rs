@@ -112,13 +112,33 @@ impl Kind {
 /// A checked document as tables, and back with every default filled in.
 fn read<T: Tables>(document: Value) -> Result<Content, serde_json::Error> {
     let tables: T = serde_json::from_value(document)?;
+    let values = serde_json::to_value(&tables)?;
     Ok(Content {
-        resolved: toml::to_string(&tables).unwrap_or_default(),
+        resolved: text(values.clone()),
         about: tables.about().clone(),
         checks: tables.checks().to_vec(),
         limit: tables.limit().cloned(),
-        tables: serde_json::to_value(tables)?,
+        tables: values,
     })
+}
+
+/// Tables as a case file. From values rather than from each type: the compiler then makes one TOML writer, not one a type.
+#[must_use]
+pub fn text(mut tables: Value) -> String {
+    drop_nulls(&mut tables);
+    toml::to_string(&tables).unwrap_or_default()
+}
+
+/// TOML has no null: a value that is not given is left out.
+fn drop_nulls(value: &mut Value) {
+    match value {
+        Value::Object(map) => {
+            map.retain(|_, value| !value.is_null());
+            map.values_mut().for_each(drop_nulls);
+        }
+        Value::Array(values) => values.iter_mut().for_each(drop_nulls),
+        _ => {}
+    }
 }
 
 /// All kinds of case that a program knows, in the order of its models.

@@ -27,7 +27,7 @@ mod wording;
 pub use diagnose::nearest;
 pub use document::{Document, Span, Text};
 pub use fault::Fault;
-pub use kind::{Kind, Kinds, Tables};
+pub use kind::{Kind, Kinds, Tables, text};
 pub use reference::reference;
 pub use render::printable;
 pub use violation::{CaseFault, Violation};

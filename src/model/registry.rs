@@ -136,7 +136,7 @@ fn from_case<M: Model>(case: &Case) -> Result<M, CaseError> {
 /// # Errors
 /// Every violation; its places point into the tables written as a case.
 pub fn checked<M: Model>(tables: &M::Tables) -> Result<M, CaseError> {
-    let text = toml::to_string(tables).unwrap_or_default();
+    let text = crate::case::text(serde_json::to_value(tables).unwrap_or_default());
     let kinds = Kinds::new(vec![Kind::of::<M::Tables>(M::INFO.name)]);
     from_case::<M>(&Case::parse(&kinds, &tables.about().title, "tables", text, &[])?)
 }
