@@ -5,11 +5,11 @@ use std::sync::Arc;
 use serde_json::{Map, Value, json};
 
 use super::angle::{self, Definition};
-use super::document::{Data, Document, Node, Span};
+use super::document::{Data, Document, Node};
 use super::fault::Fault;
 use super::kind::{Kind, Kinds};
 use super::schema;
-use super::violation::Violation;
+use super::violation::{Span, Violation};
 use super::wording::{choices, expected, header, shown};
 use crate::closures::catalogue;
 

@@ -1,21 +1,10 @@
 //! A TOML document that remembers where each key and value stands, also through `--set`.
 
-use std::ops::Range;
-
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use super::fault::Fault;
-use super::violation::Violation;
-
-/// Where something stands: which text, and which bytes of it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Span {
-    /// index of the text: 0 is the case file, the others are `--set` arguments
-    pub text: usize,
-    /// bytes
-    pub bytes: Range<usize>,
-}
+use super::violation::{Span, Violation};
 
 /// A value and where it stands.
 #[derive(Clone, Debug)]

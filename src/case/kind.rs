@@ -11,7 +11,6 @@ use serde::de::DeserializeOwned;
 use serde_json::Value;
 
 use super::checks::{Check, Limit};
-use super::schema::close;
 use super::tables::About;
 
 /// The tables of a case: what the model itself needs, and what every case has.
@@ -106,6 +105,27 @@ impl Kind {
     /// `kind` and, if there is one, `solution`.
     pub(super) fn tags(&self) -> (&'static str, Option<&'static str>) {
         self.name.split_once('/').map_or((self.name, None), |(kind, solution)| (kind, Some(solution)))
+    }
+}
+
+/// Objects take no other keys; `null` is not a TOML value.
+fn close(schema: &mut Value) {
+    match schema {
+        Value::Object(object) => {
+            if object.contains_key("properties") {
+                object.insert("additionalProperties".into(), false.into());
+            }
+            if let Some(Value::Array(types)) = object.get_mut("type") {
+                types.retain(|t| t != "null");
+                if let [only] = types.as_slice() {
+                    let only = only.clone();
+                    object.insert("type".into(), only);
+                }
+            }
+            object.values_mut().for_each(close);
+        }
+        Value::Array(items) => items.iter_mut().for_each(close),
+        _ => {}
     }
 }
 

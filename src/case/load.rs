@@ -6,10 +6,10 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use super::diagnose::{Diagnosis, diagnose, nearest};
-use super::document::{Document, Span, Text};
+use super::document::{Document, Text};
 use super::fault::Fault;
 use super::kind::{Content, Kind};
-use super::violation::Violation;
+use super::violation::{Span, Violation};
 use super::{Case, CaseError, Kinds, angle, shipped};
 
 /// Largest accepted case file \[bytes].

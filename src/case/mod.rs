@@ -25,12 +25,12 @@ mod violation;
 mod wording;
 
 pub use diagnose::nearest;
-pub use document::{Document, Span, Text};
+pub use document::{Document, Text};
 pub use fault::Fault;
 pub use kind::{Kind, Kinds, Tables, text};
 pub use reference::reference;
 pub use render::printable;
-pub use violation::{CaseFault, Violation};
+pub use violation::{CaseFault, Span, Violation};
 
 use std::sync::Arc;
 

@@ -9,27 +9,6 @@ pub fn models(kinds: &Kinds) -> impl Iterator<Item = (&'static str, &str)> {
     kinds.iter().map(|kind| (kind.name, text(&kind.schema, "description")))
 }
 
-/// Objects take no other keys; `null` is not a TOML value.
-pub(super) fn close(schema: &mut Value) {
-    match schema {
-        Value::Object(object) => {
-            if object.contains_key("properties") {
-                object.insert("additionalProperties".into(), false.into());
-            }
-            if let Some(Value::Array(types)) = object.get_mut("type") {
-                types.retain(|t| t != "null");
-                if let [only] = types.as_slice() {
-                    let only = only.clone();
-                    object.insert("type".into(), only);
-                }
-            }
-            object.values_mut().for_each(close);
-        }
-        Value::Array(items) => items.iter_mut().for_each(close),
-        _ => {}
-    }
-}
-
 /// The published schema: `oneOf` the kinds of case, quantities as numbers or texts.
 #[must_use]
 pub fn published(kinds: &Kinds) -> Value {

@@ -1,9 +1,8 @@
 //! What a fault of a case is, whoever finds it, and where it is.
 
 use std::error::Error;
+use std::ops::Range;
 use std::sync::Arc;
-
-use super::document::Span;
 
 /// What is wrong at one place of a case: its message, and what to do about it. [`Fault`](super::Fault) has those of reading a
 /// case; a model has its own.
@@ -29,6 +28,15 @@ impl dyn CaseFault {
         let error: &(dyn Error + 'static) = self;
         error.downcast_ref()
     }
+}
+
+/// Where something stands: which text, and which bytes of it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// index of the text: 0 is the case file, the others are `--set` arguments
+    pub text: usize,
+    /// bytes
+    pub bytes: Range<usize>,
 }
 
 /// A fault, the path where it is, and the places to point at.

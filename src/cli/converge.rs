@@ -34,7 +34,7 @@ enum Over {
     Mesh,
 }
 
-/// [`converge::Reference`] on the command line.
+/// [`crate::study::Reference`] on the command line.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum Reference {
     /// The exact yield on the same mesh; the closed form for meshes
@@ -67,8 +67,8 @@ impl Verb for Converge {
             overrides: self.case.overrides.clone(),
             over,
             reference: self.reference.map(|reference| match reference {
-                Reference::Exact => converge::Reference::Exact,
-                Reference::Finest => converge::Reference::Finest,
+                Reference::Exact => crate::study::Reference::Exact,
+                Reference::Finest => crate::study::Reference::Finest,
             }),
             half_decades: self.half_decades,
         };

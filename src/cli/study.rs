@@ -12,7 +12,7 @@ use super::{CaseArgs, CliError, answer, say, word};
 use crate::model::Registry;
 use crate::output::Mode;
 use crate::result::{ErrorReport, Snapshot, Status, Watch};
-use crate::study::converge::Assess;
+use crate::study::Assess;
 use crate::study::{Conducted, Next, Observer, Plan, Settings, conduct};
 
 /// How a study is conducted.

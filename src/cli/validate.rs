@@ -12,6 +12,7 @@ use crate::model::Registry;
 use crate::output::TableFile;
 use crate::units::significant;
 use crate::validate::advice::{self, Assessed};
+use crate::validate::table::ADVICE_TESTS;
 use crate::validate::{FIGURE, HEAD, Row, Verdict, figure, markdown, validate};
 
 /// Re-run what the cases claim and write the table.
@@ -49,8 +50,11 @@ impl Verb for Validate {
             .filter(|_| Path::new("docs").is_dir());
         let table = self.out.or(default).map(|file| TableFile::prepare(&file, HEAD, FIGURE)).transpose()?;
         let rows = validate(registry, &self.cases, tier, &mut Progress::new(self.json))?;
-        let assessed =
-            if self.advice || self.full && self.cases.is_empty() { advice::assess(registry) } else { Vec::new() };
+        let assessed = if self.advice || self.full && self.cases.is_empty() {
+            advice::assess(registry, ADVICE_TESTS)
+        } else {
+            Vec::new()
+        };
         if let Some(table) = table {
             let advice = if assessed.is_empty() { String::new() } else { advice::markdown(&assessed) };
             table.write(&(markdown(&rows) + &advice), &figure(&rows))?;

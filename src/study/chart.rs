@@ -10,7 +10,8 @@ use std::path::Path;
 
 use serde_json::json;
 
-use super::converge::{Assess, error_text};
+use super::Assess;
+use super::curves::error_text;
 use super::ladder::{KEY, rungs};
 use super::{Assessment, Plan, Point, Row, StudyError};
 use crate::model::{Problem, Registry};

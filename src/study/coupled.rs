@@ -6,7 +6,7 @@
 
 use serde_json::json;
 
-use super::converge::curve;
+use super::curves::curve;
 use super::range::number_and_unit;
 use super::{Assessment, Row};
 use crate::closures::transport::LAWS;

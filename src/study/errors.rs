@@ -8,6 +8,25 @@ use crate::model::{Focus, Number, Rule};
 use crate::result::quantity as q;
 use crate::result::{Profile, Results};
 
+/// What the error is measured against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Reference {
+    /// the exact yield on the same mesh, or the closed form of the exact yield
+    Exact,
+    /// the smallest regularisation of each law, or a mesh finer than all others
+    Finest,
+}
+
+impl Reference {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Exact => "exact",
+            Self::Finest => "finest",
+        }
+    }
+}
+
 /// Columns of the measures.
 pub(super) const L2: &str = "error_velocity_l2";
 const LARGEST: &str = "error_velocity_largest";

@@ -1,8 +1,7 @@
 //! Where a method ends: what came of a point, and the limit between two of which one holds.
 
-use super::converge::error_text;
+use super::curves::error_text;
 use super::range::{Varied, number_and_unit, parse};
-use super::stability::Request;
 use super::{Row, StudyError};
 use crate::case::CaseError;
 use crate::model::ClosedForm;
@@ -20,6 +19,30 @@ const WIDTH: f64 = 1e-3;
 const ROUND_OFF: f64 = 1e-16;
 /// Most solutions for one limit.
 const HALVINGS: usize = 24;
+
+/// What the user asks for.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Request {
+    /// file or shipped case
+    pub case: String,
+    /// `--set` arguments
+    pub overrides: Vec<String>,
+    /// one or two `--over` arguments
+    pub over: Vec<String>,
+    /// largest error of an answer that holds
+    pub tolerance: f64,
+    /// the limit that the case predicts, in the unit of the first key
+    pub predicted: Option<f64>,
+}
+
+impl Request {
+    /// The case as it stands over one key or two, with answers that hold within 1 %.
+    #[must_use]
+    pub fn new(case: &str, over: Vec<String>) -> Self {
+        Self { case: case.into(), overrides: Vec::new(), over, tolerance: 0.01, predicted: None }
+    }
+}
 
 /// A point with its class, the error of its answer, and why it fails.
 #[derive(Clone, Debug)]

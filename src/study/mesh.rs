@@ -4,7 +4,8 @@ use std::borrow::Cow;
 
 use serde_json::{Map, json};
 
-use super::converge::{Reference, curve, error_text, line, range_text};
+use super::curves::{curve, error_text, line, range_text};
+use super::errors::Reference;
 use super::errors::{Columns, L2, RMS, RMS_PAPER, ReferenceSolution, column};
 use super::orders::{ROUND_OFF, overall, slopes};
 use super::{Assessment, Point, Row};

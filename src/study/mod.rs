@@ -11,6 +11,7 @@ pub mod calibrate;
 pub mod chart;
 pub mod converge;
 mod coupled;
+mod curves;
 mod errors;
 mod ladder;
 pub mod limits;
@@ -35,6 +36,7 @@ use crate::compare::DataError;
 use crate::output::{OutputError, default_folder};
 use crate::result::{Class, Cost, ErrorReport, Field, Figure, Profile, Results, Status, codes};
 
+pub use errors::Reference;
 pub use runner::{Conducted, Next, Observer, Settings, conduct};
 
 /// Code of a point that the user stopped.
@@ -97,6 +99,9 @@ pub struct Row {
     /// fields over the section
     pub field: Option<Field>,
 }
+
+/// Reads what the rows say.
+pub type Assess = Box<dyn FnOnce(&[Row]) -> Assessment + Send>;
 
 /// What the rows say together.
 #[derive(Clone, Debug, Default)]

@@ -5,7 +5,8 @@ use std::borrow::Cow;
 
 use serde_json::{Map, Value, json};
 
-use super::converge::{Reference, curve, error_text, line, range_text};
+use super::curves::{curve, error_text, line, range_text};
+use super::errors::Reference;
 use super::errors::{CREEP, Columns, L2, RMS_PAPER, ReferenceSolution, column};
 use super::orders::{Fit, between, fit, overall, slopes};
 use super::{Assessment, Point, Row};

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 use serde_json::Value;
 
-use super::converge::Assess;
+use super::Assess;
 use super::{Assessment, Plan, Point, Row, STOPPED, StudyError, page, record};
 use crate::case::{Case, CaseError};
 use crate::model::{Problem, Registry};

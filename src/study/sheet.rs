@@ -1,7 +1,7 @@
 //! Figures of a sweep of sheet flows over the Shields number: transport rate beside published laws, thickness, roughness.
 
 use super::Row;
-use super::converge::curve;
+use super::curves::curve;
 use crate::closures::transport::LAWS;
 use crate::result::Status;
 use crate::result::quantity::{self as q, Quantity};

@@ -8,38 +8,16 @@ use std::collections::BTreeMap;
 
 use serde_json::json;
 
+use super::Assess;
 use super::chart::time_text;
-use super::converge::{Assess, error_text};
+use super::curves::error_text;
+pub use super::limits::Request;
 use super::limits::{Found, limits, solved};
 use super::range::{MAX_POINTS, Varied, number_and_unit, parse};
 use super::{Assessment, Plan, Point, Row, StudyError};
 use crate::model::Registry;
 use crate::result::{Axis, Class, Curve, Figure, Marker, Panel, Scale, Status};
 use crate::units::significant;
-
-/// What the user asks for.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Request {
-    /// file or shipped case
-    pub case: String,
-    /// `--set` arguments
-    pub overrides: Vec<String>,
-    /// one or two `--over` arguments
-    pub over: Vec<String>,
-    /// largest error of an answer that holds
-    pub tolerance: f64,
-    /// the limit that the case predicts, in the unit of the first key
-    pub predicted: Option<f64>,
-}
-
-impl Request {
-    /// The case as it stands over one key or two, with answers that hold within 1 %.
-    #[must_use]
-    pub fn new(case: &str, over: Vec<String>) -> Self {
-        Self { case: case.into(), overrides: Vec::new(), over, tolerance: 0.01, predicted: None }
-    }
-}
 
 /// The plan of a map of stability, and how to assess it.
 ///
@@ -129,7 +107,7 @@ fn assess(registry: &Registry, request: &Request, varied: &[Varied], rows: &[Row
         modes.entry(what.class).or_insert((0, row, &what.reason)).0 += 1;
     }
     for (class, (count, row, reason)) in &modes {
-        let first = format!("first at {}", row.point.name(&request.names(varied)));
+        let first = format!("first at {}", row.point.name(&names(varied)));
         let why = if reason.is_empty() { String::new() } else { format!(": {reason}") };
         findings.push((class.name().into(), format!("{count} of {} points, {first}{why}", rows.len())));
     }
@@ -153,10 +131,8 @@ fn assess(registry: &Registry, request: &Request, varied: &[Varied], rows: &[Row
     assessment
 }
 
-impl Request {
-    fn names(&self, varied: &[Varied]) -> Vec<String> {
-        varied.iter().map(|v| v.key.clone()).collect()
-    }
+fn names(varied: &[Varied]) -> Vec<String> {
+    varied.iter().map(|v| v.key.clone()).collect()
 }
 
 fn marker(class: Class) -> Marker {

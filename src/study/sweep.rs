@@ -2,7 +2,8 @@
 
 use serde_json::json;
 
-use super::converge::{Assess, curve};
+use super::Assess;
+use super::curves::curve;
 use super::range::{MAX_POINTS, Varied, number_and_unit, parse};
 use super::{Assessment, Plan, Point, Row, StudyError};
 use crate::result::Status;

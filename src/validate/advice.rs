@@ -7,7 +7,6 @@ use std::fmt::Write;
 use std::time::Instant;
 
 use super::Verdict;
-use super::table::ADVICE_TESTS;
 use crate::advise::{self, Least};
 use crate::model::Registry;
 use crate::result::Context;
@@ -101,10 +100,10 @@ pub struct Assessed {
     pub verdict: Verdict,
 }
 
-/// Asks for advice on each scene and solves the model that it names and the candidates.
+/// Asks for advice on each scene of [`ADVICE_TESTS`](super::table::ADVICE_TESTS), say, and solves the model that it names and the candidates.
 #[must_use]
-pub fn assess(registry: &Registry) -> Vec<Assessed> {
-    ADVICE_TESTS.iter().map(|test| one(registry, *test)).collect()
+pub fn assess(registry: &Registry, tests: &[AdviceTest]) -> Vec<Assessed> {
+    tests.iter().map(|test| one(registry, *test)).collect()
 }
 
 fn owned(set: &[&str]) -> Vec<String> {
@@ -246,7 +245,7 @@ mod tests {
 
     #[test]
     fn advice_is_right_on_every_scene() {
-        let assessed = assess(&crate::models::builtin());
+        let assessed = assess(&crate::models::builtin(), super::super::table::ADVICE_TESTS);
         for row in &assessed {
             assert_eq!(row.verdict, Verdict::Green, "{row:#?}");
         }

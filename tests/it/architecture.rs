@@ -59,7 +59,7 @@ const DEBTS: &[(&str, &str)] = &[];
 const LONGEST_FILE: usize = 400;
 
 /// The text without comments, and without the content of string literals.
-fn code(text: &str) -> String {
+pub(super) fn code(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut chars = text.chars().peekable();
     while let Some(c) = chars.next() {
@@ -97,14 +97,13 @@ fn identifier(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The paths of a text that begins after a prefix, two segments of each: `a::b`, `{a, b::{c, d}}` is `a`, `b::c`, `b::d`.
+/// The paths of a text that begins after a prefix: `a::b`, `{a, b::{c, d}}` is `a`, `b::c`, `b::d`.
 fn spelt(text: &str) -> Vec<Vec<String>> {
     let text = text.trim_start();
     let Some(group) = text.strip_prefix('{') else {
         let first: String = text.chars().take_while(|&c| identifier(c)).collect();
         let Some(rest) = text[first.len()..].strip_prefix("::") else { return vec![vec![first]] };
-        let seconds = spelt(rest).into_iter().filter_map(|path| path.into_iter().next());
-        return seconds.map(|second| vec![first.clone(), second]).collect();
+        return spelt(rest).into_iter().map(|path| [vec![first.clone()], path].concat()).collect();
     };
     let (mut items, mut depth, mut item) = (Vec::new(), 0, String::new());
     for c in group.chars() {
@@ -125,7 +124,7 @@ fn spelt(text: &str) -> Vec<Vec<String>> {
 }
 
 /// What the code names after `prefix`, such as `crate::`, where that is a word of its own.
-fn paths(code: &str, prefix: &str) -> Vec<Vec<String>> {
+pub(super) fn paths(code: &str, prefix: &str) -> Vec<Vec<String>> {
     code.match_indices(prefix)
         .filter(|(i, _)| !code[..*i].ends_with(|c| identifier(c) || c == ':'))
         .flat_map(|(i, _)| spelt(&code[i + prefix.len()..]))
@@ -195,13 +194,13 @@ fn place(file: &Path) -> Option<(String, usize)> {
 }
 
 /// Tests of a module may take what they need to be tests.
-fn is_test(file: &Path) -> bool {
+pub(super) fn is_test(file: &Path) -> bool {
     file.iter().any(|part| ["tests", "tests.rs", "samples.rs"].iter().any(|test| part == *test))
         && file.strip_prefix(project("src/models/grains")).is_err()
 }
 
 /// The text of a file without the tests at its end.
-fn without_tests(text: &str) -> &str {
+pub(super) fn without_tests(text: &str) -> &str {
     text.split("#[cfg(test)]\nmod tests {").next().unwrap_or(text)
 }
 
@@ -305,9 +304,6 @@ fn no_name_stands_in_for_a_model() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-const BEGIN: &str = "<!-- modules: made by tests/it/architecture.rs -->\n";
-const END: &str = "<!-- end of modules -->\n";
-
 /// The modules from the ground up, and what each of them names.
 fn picture() -> String {
     let found = found();
@@ -325,17 +321,24 @@ fn picture() -> String {
 
 #[test]
 fn the_picture_of_the_modules_is_that_of_the_code() {
+    drawn("modules", "architecture", &picture());
+}
+
+/// Requires that docs/design.md has this text between its marks, or writes it there on request.
+pub(super) fn drawn(what: &str, file: &str, text: &str) {
+    let begin = format!("<!-- {what}: made by tests/it/{file}.rs -->\n");
+    let end = format!("<!-- end of {what} -->\n");
     let path = project("docs/design.md");
     let page = fs::read_to_string(&path).unwrap();
-    let (before, rest) = page.split_once(BEGIN).expect("docs/design.md has a place for the modules");
-    let (drawn, after) = rest.split_once(END).expect("the modules end");
-    if drawn == picture() {
+    let (before, rest) = page.split_once(&begin).expect("docs/design.md has a place for it");
+    let (there, after) = rest.split_once(&end).expect("it ends");
+    if there == text {
         return;
     }
     if std::env::var_os("BEDLOAD_GOLDENS").is_some_and(|word| word == "write") {
-        fs::write(&path, format!("{before}{BEGIN}{}{END}{after}", picture())).unwrap();
+        fs::write(&path, format!("{before}{begin}{text}{end}{after}")).unwrap();
     } else {
-        panic!("out of step; BEDLOAD_GOLDENS=write cargo test --release --test it -- picture_of_the_modules");
+        panic!("out of step; BEDLOAD_GOLDENS=write cargo test --release --test it -- {file}");
     }
 }
 

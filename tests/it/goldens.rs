@@ -12,7 +12,7 @@ use bedload::case::{Case, shipped};
 use bedload::model::Problem;
 use bedload::output::fingerprint;
 use bedload::result::Outcome;
-use bedload::study::{Point, chart, converge};
+use bedload::study::{Point, Reference, chart, converge};
 use bedload::validate::table::ADVICE_TESTS;
 use rayon::prelude::*;
 
@@ -87,7 +87,7 @@ fn points(name: &str) -> Vec<Point> {
     let request = chart::Request { cases: vec![name.into()], overrides: vec![], quantity: None, reference: None };
     let mut points = chart::plan(&REGISTRY, &request).map(|(plan, _)| plan.points).unwrap_or_default();
     for over in [converge::Over::Regularisation, converge::Over::Mesh] {
-        for reference in [None, Some(converge::Reference::Finest)] {
+        for reference in [None, Some(Reference::Finest)] {
             let mut request = converge::Request::new(name, over);
             request.reference = reference;
             points.extend(converge::plan(&REGISTRY, &request).map(|(plan, _)| plan.points).unwrap_or_default());

@@ -8,6 +8,7 @@ mod calibrate;
 mod cases_bad;
 mod cases_good;
 mod chart;
+mod circles;
 mod cli;
 mod compare;
 mod converge;

@@ -19,7 +19,7 @@ use std::ops::ControlFlow;
 pub use parameters::Parameters;
 pub use target::{Column, Level, Target};
 
-use super::converge::Assess;
+use super::Assess;
 use super::{Assessment, Next, Observer, Plan, Point, StudyError};
 use crate::compare::{Subject, data};
 use crate::model::Registry;
