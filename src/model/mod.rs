@@ -13,7 +13,6 @@ mod registry;
 mod simulation;
 mod study;
 
-use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -100,7 +99,7 @@ pub struct OnMesh<P> {
 }
 
 /// What can be done with a problem, whatever its model.
-pub trait Solve: Any + Debug + Send + Sync {
+pub trait Solve: Debug + Send + Sync + 'static {
     /// Solves it.
     ///
     /// # Errors

@@ -1,6 +1,5 @@
 //! A checked problem: immutable values in SI, whatever the model. After this nothing is out of range and no unit remains.
 
-use std::any::Any;
 use std::sync::Arc;
 
 use super::{Description, Faults, ModelInfo, Solve, SteadyDrive};
@@ -133,13 +132,6 @@ impl Problem {
     #[must_use]
     pub fn solver(&self) -> &dyn Solve {
         self.solver.as_ref()
-    }
-
-    /// What is solved, if it is a `T`.
-    #[must_use]
-    pub fn get<T: Solve>(&self) -> Option<&T> {
-        let any: &dyn Any = self.solver.as_ref();
-        any.downcast_ref()
     }
 
     /// The model in words, with its form where it has one.

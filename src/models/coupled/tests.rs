@@ -27,7 +27,7 @@ use std::ops::ControlFlow;
 
 const D: f64 = 6e-3;
 
-fn flow() -> Coupled {
+pub(super) fn flow() -> Coupled {
     let discrete = crate::models::coupled::case::CoupledDiscrete {
         duration: 0.4,
         known_to: None,

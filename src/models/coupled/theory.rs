@@ -200,12 +200,11 @@ impl<'a> Comparison<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::models::builtin;
+    use crate::models::coupled::tests::flow;
 
     /// Levels a diameter apart around one with grains that move, and the flow that they are of.
     fn assessed() -> (Coupled, Profile) {
-        let (_, problem) = builtin().load("coupled_3d_theta04_quick", &[]).unwrap();
-        let flow = *problem.get::<Coupled>().unwrap();
+        let flow = flow();
         let d = flow.bed.d;
         let mut profile = Profile::new((0..5).map(|i| f64::from(i) * d).collect()).unwrap();
         let mut push = |quantity, values: [f64; 5]| profile.push(quantity, values.map(Some).to_vec()).unwrap();
