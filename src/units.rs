@@ -6,7 +6,9 @@ mod readable;
 
 use std::fmt;
 
-pub use readable::{ROUND_OFF, readable, readable_error, readable_known, readable_mean, readable_unit, significant};
+pub use readable::{
+    ROUND_OFF, readable, readable_error, readable_known, readable_mean, readable_unit, significant, stated,
+};
 
 /// Powers of metre, kilogram, second and radian. A ratio is a pure number; an angle is none: its tangent and its sine are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -63,6 +63,9 @@ impl std::fmt::Display for Range {
     }
 }
 
+/// A constant of a law: its symbol in the equation, its value in SI, and its unit, which a pure number has not.
+pub type Constant = (&'static str, f64, &'static str);
+
 /// What `bedload list closures` says of a law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Info {

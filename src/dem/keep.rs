@@ -2,7 +2,7 @@
 
 use super::error::RunError;
 use super::law::LinearSpring;
-use crate::closures::contact::{self, Tension, restitution};
+use crate::closures::contact::{self, Tension, linear_spring, restitution};
 use crate::units::significant;
 
 /// The law of the case.
@@ -20,13 +20,15 @@ pub fn contact_equations(contact: &contact::LinearSpring) -> String {
     let zeta = restitution::damping_ratio(contact.e_n, contact.tension).map_or_else(|_| "-".into(), n);
     format!(
         "motion         m dv/dt = Σ f + m g,  (2/5) m R² dω/dt = Σ l × f,  leapfrog\n\
-         normal         f_n = k_n δ - c v_n{},  k_n = {} N/m,  c = 2 ζ sqrt(m k_n),  ζ = {} for e_n = {}\n\
-         tangential     ds/dt = v_t in the plane of contact,  |f_t| = min(k_s |s|, μ max(f_n, 0)),  k_s = {} N/m,  μ = {}\n\
+         contact        {}{}\n\
+         constants      k_n = {} N/m, e_n = {}, ζ = {}, k_s = {} N/m, μ = {}\n\
+         tangential     ds/dt = v_t in the plane of contact\n\
          mass           1/m = 1/m_1 + 1/m_2, of the pair; 0 for fixed grains and walls\n",
-        if contact.tension == Tension::Cut { " ≥ 0" } else { "" },
+        linear_spring::INFO.equation,
+        if contact.tension == Tension::Cut { ",  f_n ≥ 0" } else { "" },
         n(contact.k_n),
-        zeta,
         n(contact.e_n),
+        zeta,
         n(contact.k_s),
         n(contact.mu),
     )

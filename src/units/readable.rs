@@ -19,6 +19,17 @@ pub fn significant(value: f64, digits: usize) -> String {
     }
 }
 
+/// An `equation` with the `constants` in it: symbol, value in SI, and unit, which a pure number has not.
+#[must_use]
+pub fn stated(equation: &str, constants: &[(&str, f64, &str)]) -> String {
+    let mut text = equation.to_owned();
+    for (i, (symbol, value, unit)) in constants.iter().enumerate() {
+        let (lead, gap) = (if i == 0 { ",  " } else { ", " }, if unit.is_empty() { "" } else { " " });
+        text += &format!("{lead}{symbol} = {}{gap}{unit}", significant(*value, 5));
+    }
+    text
+}
+
 /// A decimal multiple of `unit` in which a number of size `magnitude` is easy to read: factor from SI and its symbol.
 #[must_use]
 pub fn readable_unit(magnitude: f64, unit: &'static str) -> (f64, &'static str) {

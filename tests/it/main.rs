@@ -22,6 +22,7 @@ mod goldens;
 mod grains;
 mod interruption;
 mod kinetic;
+mod laws;
 mod limits;
 mod lock;
 mod mutate;

@@ -23,7 +23,7 @@ pub const RIGID_RANGE: Range = Range { variable: "overlap over d", min: 0.0, max
 pub static INFO: Info = Info {
     family: "contact",
     law: "linear-spring",
-    equation: "f_n = k_n δ - c v_n,  |f_t| = min(k_s |s|, μ f_n),  c from e_n",
+    equation: "f_n = k_n δ - c v_n,  c = 2 ζ sqrt(m k_n),  ζ from e_n,  |f_t| = min(k_s |s|, μ max(f_n, 0))",
     source: "Cundall & Strack (1979); Maurin et al. (2015) section II.A",
     ranges: &[RIGID_RANGE],
     standing: Standing::Validated,

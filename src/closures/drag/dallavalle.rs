@@ -17,7 +17,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::closures::{Info, Range, Standing};
+use crate::closures::{Constant, Info, Range, Standing};
 use crate::numerics::dual::Real;
 
 /// The quadratic part, and the one that is linear in the velocity.
@@ -50,6 +50,12 @@ fn exponent() -> f64 {
 }
 
 impl Dallavalle {
+    /// Constants of the law.
+    #[must_use]
+    pub fn constants(&self) -> Vec<Constant> {
+        vec![("exponent n", self.exponent, "")]
+    }
+
     /// `C_D` [kg/(m3 s)] for the solid fraction `phi`, the slip `w` [m/s], and of the fluid the density `rho_f` [kg/m3] and
     /// viscosity `eta` [Pa s]; grains of diameter `d` \[m].
     #[must_use]

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::closures::{Info, Range, Standing};
+use crate::closures::{Constant, Info, Range, Standing};
 use crate::numerics::dual::Real;
 
 /// The part of `C_D` that is inverse to the Reynolds number.
@@ -57,6 +57,12 @@ fn exponent() -> f64 {
 }
 
 impl DallavalleGrain {
+    /// Constants of the law.
+    #[must_use]
+    pub fn constants(&self) -> Vec<Constant> {
+        vec![("C_∞", self.constant, ""), ("n", self.exponent, "")]
+    }
+
     /// `(pi d^2/8) rho_f (1 - phi)^(-n)` [kg/m]: the drag over `C_D |w| w` without hindrance.
     #[must_use]
     pub fn size(&self, phi: f64, rho_f: f64, d: f64) -> f64 {

@@ -14,6 +14,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Eddies;
 use crate::closures::{Info, Standing};
 use crate::runtime::rng::Stream;
 
@@ -21,7 +22,7 @@ use crate::runtime::rng::Stream;
 pub static INFO: Info = Info {
     family: "fluctuation",
     law: "random-walk",
-    equation: "u_z' = λ₁, u_x' = -λ₁ + λ₂, λ normal, σ² = R_xz/(ρ_f ε), every w_d/U",
+    equation: "u_z' = λ₁,  u_x' = -λ₁ + λ₂,  λ normal, σ² = R_xz/(ρ_f ε),  drawn anew for each grain every w_d/U",
     source: "Maurin et al. (2015), eq. (15)-(16)",
     ranges: &[],
     standing: Standing::Validated,
@@ -42,17 +43,17 @@ fn yes() -> bool {
     true
 }
 
-impl RandomWalk {
-    /// Standard deviation [m/s] for the Reynolds stress \[Pa] at porosity `eps` in a fluid of density `rho_f` [kg/m3].
-    #[must_use]
-    pub fn deviation(&self, reynolds: f64, eps: f64, rho_f: f64) -> f64 {
+impl Eddies for RandomWalk {
+    fn are_drawn(&self) -> bool {
+        true
+    }
+
+    fn deviation(&self, reynolds: f64, eps: f64, rho_f: f64) -> f64 {
         let share = if self.per_porosity { eps } else { 1.0 };
         (reynolds.max(0.0) / (rho_f * share)).sqrt()
     }
 
-    /// Fluctuation along x, y and z [m/s] of standard deviation `sigma` [m/s].
-    #[must_use]
-    pub fn draw(&self, stream: &mut Stream, sigma: f64) -> [f64; 3] {
+    fn draw(&self, stream: &mut Stream, sigma: f64) -> [f64; 3] {
         let [first, second] = stream.normal_pair();
         let across = if self.spanwise { stream.normal_pair()[0] } else { 0.0 };
         [sigma * (second - first), sigma * across, sigma * first]

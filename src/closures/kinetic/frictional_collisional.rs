@@ -12,7 +12,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Dissipation, DragWork, Kinetic, Limit, Radial, Saltation, Stresses, garzo_dufty, saltation};
+use super::{Dissipation, DragWork, Kinetic, Limit, Moving, Radial, Saltation, Stresses, garzo_dufty, saltation};
 use crate::closures::kinetic::dissipation::EffectiveRestitution;
 use crate::closures::kinetic::radial::AtContact;
 use crate::closures::{Info, Range, Standing};
@@ -21,7 +21,7 @@ use crate::closures::{Info, Range, Standing};
 pub static INFO: Info = Info {
     family: "granular",
     law: "frictional-collisional",
-    equation: "as garzo-dufty with g₀(φ; μ_p), e_eff in F₄, harmonic saltation in F₂ and F₃, J = -φ (1 - φ) K (3 + 2 C_∞/C_D) T",
+    equation: "p_kin = ρ_p F₁ T,  η = ρ_p d F₂ T^½,  κ = ρ_p d F₃ T^½,  Γ = -(ρ_p/d) F₄ T^(3/2),  F₁ to F₄ of garzo-dufty with g₀(φ; μ_p), e_eff in F₄, saltation in F₂ and F₃",
     source: "Chassagne et al. (2023), Table 1, right column",
     ranges: &[garzo_dufty::RESTITUTION_RANGE, Range { variable: "friction", min: 0.0, max: 1.5 }],
     standing: Standing::Validated,
@@ -108,6 +108,10 @@ impl FrictionalCollisional {
 }
 
 impl Stresses for FrictionalCollisional {
+    fn moving(&self, e: f64, mu_p: f64) -> Moving {
+        Moving::Kinetic(self.kinetic(e, mu_p))
+    }
+
     fn parts(&self) -> Vec<&'static Info> {
         let mut parts = vec![self.radial.info(), self.dissipation.info(), self.drag_work.info()];
         parts.extend((self.saltation == Limit::Harmonic).then_some(&saltation::INFO));

@@ -25,7 +25,7 @@ use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{DragWork, Kinetic, Radial, Stresses};
+use super::{DragWork, Kinetic, Moving, Radial, Stresses};
 use crate::closures::kinetic::radial::AtContact;
 use crate::closures::{Info, Range, Standing};
 use crate::numerics::dual::Real;
@@ -37,7 +37,7 @@ pub const RESTITUTION_RANGE: Range = Range { variable: "restitution", min: 0.5, 
 pub static INFO: Info = Info {
     family: "granular",
     law: "garzo-dufty",
-    equation: "p = ρ_p F₁ T,  η = ρ_p d F₂ T^½,  κ = ρ_p d F₃ T^½,  Γ = -(ρ_p/d) F₄ T^(3/2)",
+    equation: "p_kin = ρ_p F₁ T,  η = ρ_p d F₂ T^½,  κ = ρ_p d F₃ T^½,  Γ = -(ρ_p/d) F₄ T^(3/2)",
     source: "Garzo & Dufty (1999); Chassagne et al. (2023), Table 1, left column",
     ranges: &[RESTITUTION_RANGE],
     standing: Standing::Validated,
@@ -78,6 +78,10 @@ impl GarzoDufty {
 }
 
 impl Stresses for GarzoDufty {
+    fn moving(&self, e: f64, mu_p: f64) -> Moving {
+        Moving::Kinetic(self.kinetic(e, mu_p))
+    }
+
     fn parts(&self) -> Vec<&'static Info> {
         vec![self.radial.info()]
     }

@@ -17,9 +17,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Stresses;
+use super::{Moving, Stresses};
 use crate::closures::friction::{INERTIAL_RANGE, MuI};
-use crate::closures::{Info, Standing};
+use crate::closures::{Constant, Info, Standing};
 use crate::numerics::dual::Real;
 
 /// Solid fraction at rest of phi(I): Maurin, Chauchat & Frey (2016).
@@ -29,7 +29,7 @@ pub const PHI_C: f64 = 0.61;
 pub static INFO: Info = Info {
     family: "granular",
     law: "mu-i",
-    equation: "τ = μ(I) p,  p = ρ_p (b φ/(φ_max - φ))² (d du_p/dz)²",
+    equation: "τ_p = μ(I) p,  μ(I) = μ_s + (μ_2 - μ_s)/(I_0/I + 1),  p = p_el + ρ_p (b φ/(φ_max - φ))² (d du_p/dz)²",
     source: "Maurin, Chauchat & Frey (2016); Chassagne et al. (2023), eq. (1.1)-(1.2)",
     ranges: &[INERTIAL_RANGE],
     standing: Standing::Experimental,
@@ -80,12 +80,22 @@ impl Default for Inertial {
 }
 
 impl Stresses for Inertial {
+    fn moving(&self, _: f64, _: f64) -> Moving {
+        Moving::Inertial(*self)
+    }
+
     fn parts(&self) -> Vec<&'static Info> {
         Vec::new()
     }
 }
 
 impl Inertial {
+    /// Constants of the law.
+    #[must_use]
+    pub fn constants(&self) -> Vec<Constant> {
+        vec![("μ_s", self.mu_s, ""), ("μ_2", self.mu_2, ""), ("I_0", self.i_0, ""), ("b", self.b, "")]
+    }
+
     /// `(b phi/(phi_max - phi))^2/phi`, at the distance `gap` > 0 of `phi` to phi_max.
     #[must_use]
     pub fn pressure_per_grain<T: Real>(&self, phi: T, gap: T) -> T {

@@ -18,7 +18,7 @@ pub use inertial::PHI_C;
 pub use radial::Radial;
 pub use saltation::{Limit, Saltation};
 pub use static_friction::StaticFriction;
-pub use theory::Kinetic;
+pub use theory::{Kinetic, Moving};
 
 role! {
     /// Stresses of grains that move.
@@ -31,6 +31,9 @@ role! {
 
     /// What the laws of the stresses answer.
     pub trait Stresses {
+        /// The law for grains of the restitution `e` and the friction `mu_p`, as a solver takes it.
+        #[must_use]
+        fn moving(&self, e: f64, mu_p: f64) -> Moving;
         /// Catalogue entries of the laws that it is made of.
         #[must_use]
         fn parts(&self) -> Vec<&'static Info>;

@@ -1,6 +1,6 @@
 //! A kinetic theory with its numbers, classical or not.
 
-use super::{DragWork, Radial, Saltation, garzo_dufty, saltation};
+use super::{DragWork, Inertial, Radial, Saltation, garzo_dufty, saltation};
 use crate::closures::kinetic::radial::AtContact;
 use crate::numerics::dual::Real;
 
@@ -19,6 +19,15 @@ pub struct Kinetic {
     pub saltation: Option<Saltation>,
     /// work of the drag on the fluctuations
     pub drag_work: DragWork,
+}
+
+/// Stresses of grains that move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Moving {
+    /// kinetic theory
+    Kinetic(Kinetic),
+    /// mu(I) and phi(I): the granular temperature is then the square of the shear rate
+    Inertial(Inertial),
 }
 
 impl Kinetic {

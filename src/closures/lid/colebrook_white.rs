@@ -15,7 +15,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::closures::{Info, Range, Standing};
+use super::Top;
+use crate::closures::{Constant, Info, Range, Standing};
 use crate::numerics::dual::Real;
 
 /// Turbulent flow.
@@ -51,6 +52,12 @@ impl ColebrookWhite {
         let x = (0..SWEEPS)
             .fold(T::constant(7.0), |x, _| (relative + x.abs() * 2.51 / re).ln() * (-2.0 / std::f64::consts::LN_10));
         T::constant(1.0) / (x * x)
+    }
+}
+
+impl Top for ColebrookWhite {
+    fn constants(&self) -> Vec<Constant> {
+        vec![("k_s", self.roughness, "m")]
     }
 }
 

@@ -2,13 +2,14 @@
 
 use schemars::JsonSchema;
 
-use crate::closures::{Info, Standing};
+use super::Top;
+use crate::closures::{Constant, Info, Standing};
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
     family: "lid",
     law: "free-surface",
-    equation: "τ_top = 0",
+    equation: "τ_top = 0, a free surface",
     source: "the neutral law of its family",
     ranges: &[],
     standing: Standing::Validated,
@@ -17,3 +18,9 @@ pub static INFO: Info = Info {
 /// A free surface.
 #[derive(JsonSchema)]
 pub struct FreeSurface;
+
+impl Top for FreeSurface {
+    fn constants(&self) -> Vec<Constant> {
+        Vec::new()
+    }
+}

@@ -2,6 +2,7 @@
 //!
 //! The stress `tau_top` is that which the lid takes from the fluid, positive where it slows the flow.
 
+use super::Constant;
 use super::role::role;
 
 role! {
@@ -13,5 +14,12 @@ role! {
         stress::Stress(..),
         solved::Solved,
         colebrook_white::ColebrookWhite(..),
+    }
+
+    /// What the laws of the top answer.
+    pub trait Top {
+        /// Constants of the law.
+        #[must_use]
+        fn constants(&self) -> Vec<Constant>;
     }
 }

@@ -3,7 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::closures::{Info, Standing};
+use super::Top;
+use crate::closures::{Constant, Info, Standing};
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
@@ -21,4 +22,10 @@ pub struct Stress {
     /// Shear stress that the lid takes from the fluid.
     #[schemars(extend("x-unit" = "Pa", "minimum" = 0.0, "maximum" = 1e6))]
     pub stress: f64,
+}
+
+impl Top for Stress {
+    fn constants(&self) -> Vec<Constant> {
+        vec![("τ_top", self.stress, "Pa")]
+    }
 }

@@ -31,14 +31,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Length, above_zero, karman};
-use crate::closures::{Info, Range, Standing};
+use crate::closures::{Constant, Info, Range, Standing};
 use crate::numerics::dual::Real;
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
     family: "mixing_length",
     law: "li-sawamoto",
-    equation: "l_m = κ ∫₀ᶻ max(0, φ_max - φ)/φ_max dz",
+    equation: "l_m = κ max(0, ∫₀ᶻ (φ_max - φ)/φ_max dz),  the integrand ≥ 0 where clipped",
     source: "Li & Sawamoto (1995); Maurin et al. (2015), eq. (5); Revil-Baudard & Chauchat (2013), eq. (18)",
     ranges: &[Range { variable: "phi", min: 0.0, max: 0.635 }],
     standing: Standing::Validated,
@@ -74,6 +74,10 @@ pub struct LiSawamoto {
 }
 
 impl Length for LiSawamoto {
+    fn constants(&self) -> Vec<Constant> {
+        vec![("κ", self.kappa, ""), ("φ_max", self.phi_max, "")]
+    }
+
     fn clearance<T: Real>(&self, phi: T) -> T {
         let clear = (-phi + self.phi_max) / self.phi_max;
         if self.below_packed == BelowPacked::Clipped && clear.value() < 0.0 { T::constant(0.0) } else { clear }

@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Length;
-use crate::closures::{Info, Range, Standing};
+use crate::closures::{Constant, Info, Range, Standing};
 use crate::numerics::dual::Real;
 
 /// Catalogue entry.
@@ -43,6 +43,10 @@ pub struct LowSubmergence {
 }
 
 impl Length for LowSubmergence {
+    fn constants(&self) -> Vec<Constant> {
+        vec![("s", self.scale, "m"), ("l₀", self.least, "m"), ("φ_max", self.phi_max, "")]
+    }
+
     fn clearance<T: Real>(&self, _: T) -> T {
         T::constant(0.0)
     }

@@ -1,5 +1,6 @@
 //! Turbulence by a mixing length: `R_xz = rho_f l_m^2 |du/dz| du/dz`.
 
+use super::Constant;
 use super::role::role;
 use crate::numerics::dual::Real;
 pub use li_sawamoto::BelowPacked;
@@ -17,6 +18,9 @@ role! {
 
     /// What the laws of the mixing length answer.
     pub trait Length {
+        /// Constants of the law.
+        #[must_use]
+        fn constants(&self) -> Vec<Constant>;
         /// Mixing lengths \[m] at the `faces` \[m], ascending from the wall, for the solid fractions `phi` of the cells between
         /// them. `lengths` has one entry per face, `phi` one fewer.
         fn fill(&self, faces: &[f64], phi: &[f64], lengths: &mut [f64]);

@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 
 use super::Length;
-use crate::closures::{Info, Standing};
+use crate::closures::{Constant, Info, Standing};
 use crate::numerics::dual::Real;
 
 /// Catalogue entry.
@@ -21,6 +21,10 @@ pub static INFO: Info = Info {
 pub struct None;
 
 impl Length for None {
+    fn constants(&self) -> Vec<Constant> {
+        Vec::new()
+    }
+
     fn fill(&self, _: &[f64], _: &[f64], lengths: &mut [f64]) {
         lengths.fill(0.0);
     }

@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Length, above_zero, karman};
-use crate::closures::{Info, Standing};
+use crate::closures::{Constant, Info, Standing};
 use crate::numerics::dual::Real;
 
 /// Catalogue entry.
@@ -35,6 +35,10 @@ pub struct Prandtl {
 }
 
 impl Length for Prandtl {
+    fn constants(&self) -> Vec<Constant> {
+        vec![("κ", self.kappa, "")]
+    }
+
     fn fill(&self, faces: &[f64], _: &[f64], lengths: &mut [f64]) {
         let wall = faces.first().copied().unwrap_or_default();
         faces.iter().zip(lengths).for_each(|(z, length)| *length = self.kappa * (z - wall));

@@ -1,5 +1,6 @@
 //! Effective viscosity of a fluid with grains, relative to the clear fluid.
 
+use super::Constant;
 use super::role::role;
 use crate::numerics::dual::Real;
 
@@ -22,6 +23,15 @@ role! {
         /// Solid fraction at which the viscosity diverges; infinite where it does not.
         #[must_use]
         fn phi_max(&self) -> f64;
+    }
+}
+
+impl MixtureViscosity {
+    /// Constants of the law.
+    #[must_use]
+    pub fn constants(&self) -> Vec<Constant> {
+        let phi_max = self.phi_max();
+        if phi_max.is_finite() { vec![("φ_max", phi_max, "")] } else { Vec::new() }
     }
 }
 

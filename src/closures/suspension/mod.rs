@@ -10,4 +10,11 @@ role! {
         none::None,
         rouse::Rouse(..),
     }
+
+    /// What the laws of the suspension answer.
+    pub trait Settling {
+        /// Velocity at which the grains settle [m/s]; `None` where none are in suspension.
+        #[must_use]
+        fn settling_velocity(&self) -> Option<f64>;
+    }
 }

@@ -2,6 +2,7 @@
 
 use schemars::JsonSchema;
 
+use super::Settling;
 use crate::closures::{Info, Standing};
 
 /// Catalogue entry.
@@ -17,3 +18,9 @@ pub static INFO: Info = Info {
 /// Clear fluid above the bed.
 #[derive(JsonSchema)]
 pub struct None;
+
+impl Settling for None {
+    fn settling_velocity(&self) -> Option<f64> {
+        Option::None
+    }
+}

@@ -13,6 +13,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::Settling;
 use crate::closures::{Info, Range, Standing};
 use crate::numerics::dual::Real;
 
@@ -35,6 +36,12 @@ pub struct Rouse {
     /// Settling velocity of the grains.
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
     pub settling_velocity: f64,
+}
+
+impl Settling for Rouse {
+    fn settling_velocity(&self) -> Option<f64> {
+        Some(self.settling_velocity)
+    }
 }
 
 impl Rouse {

@@ -8,6 +8,7 @@
 mod advice;
 pub mod case;
 mod direction;
+mod equations;
 mod error;
 mod exchange;
 mod figures;
@@ -25,6 +26,7 @@ mod tests;
 mod theory;
 
 pub use case::FluidScheme;
+use equations::equations;
 pub use error::{CoupledError, CoupledFault};
 pub use problem::{Coupled, Freeze, Relief, Surface};
-use run::{equations, run};
+use run::run;

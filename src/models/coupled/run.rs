@@ -9,13 +9,13 @@ use super::limits;
 use super::outcome;
 use super::record::{BLOCKS, Record, Sample};
 use super::start::{gravity, level, relief};
-use crate::closures::fluctuation::Fluctuation;
+use crate::closures::fluctuation::Eddies;
 use crate::dem::average::Averages;
 use crate::dem::checkpoint::{Reader, Saved, Writer};
 use crate::dem::drive::{self, Flow, GrainFlow, Progress};
 use crate::dem::engine::Engine;
 use crate::dem::grains::Grain;
-use crate::dem::keep::{contact_equations, law};
+use crate::dem::keep::law;
 use crate::dem::law::LinearSpring;
 use crate::dem::stability;
 use crate::dem::{Bottom, GrainBed};
@@ -23,7 +23,6 @@ use crate::models::coupled::{Coupled, Surface};
 use crate::result::CheckpointError;
 use crate::result::{Context, Failure, Outcome, SolveError, Status, quantity as q};
 use crate::runtime::rng::Stream;
-use crate::units::significant;
 
 /// Stream of random numbers of the eddies.
 const EDDIES: u64 = 4;
@@ -257,17 +256,18 @@ impl Run<'_> {
 
     /// Draws anew the velocity fluctuation at each grain.
     pub(super) fn resample_fluctuations(&mut self) {
-        let Fluctuation::RandomWalk(walk) = self.flow.fluctuation else {
+        let eddies = self.flow.fluctuation;
+        if !eddies.are_drawn() {
             self.until_draw = u64::MAX;
             return;
-        };
+        }
         let [_, depth, speed] = self.water();
         let dt = self.engine.settings().dt;
         let time = if speed > 0.0 { depth / speed } else { f64::INFINITY };
         self.until_draw = (time / dt).round().clamp(1.0, 1e12) as u64;
         let (phi, reynolds) = (self.exchange.phi(), self.exchange.reynolds());
         let mut deviations: Vec<f64> =
-            (0..phi.len()).map(|i| walk.deviation(reynolds[i], 1.0 - phi[i], self.flow.rho_f)).collect();
+            (0..phi.len()).map(|i| eddies.deviation(reynolds[i], 1.0 - phi[i], self.flow.rho_f)).collect();
         deviations.push(0.0);
         let seed = u64::from(self.flow.bed.discrete.seed);
         let grains = self.engine.grains();
@@ -275,7 +275,7 @@ impl Run<'_> {
             let id = grains.ids[i];
             let sigma = deviations[self.exchange.at_grains.cell(grains.position(i)[2])];
             let mut stream = Stream::new([seed ^ (EDDIES << 32), self.draws, u64::from(id)]);
-            self.exchange.at_grains.set_fluctuation(id, walk.draw(&mut stream, sigma));
+            self.exchange.at_grains.set_fluctuation(id, eddies.draw(&mut stream, sigma));
         }
         self.draws += 1;
     }
@@ -293,39 +293,4 @@ impl Run<'_> {
         let drag = |i: usize| at_grains.drag(grains.ids[i], grains.position(i)[2], grains.velocity(i)).force;
         self.averages.sample(&self.engine, block, drag);
     }
-}
-
-/// The equations that are solved, with their numbers.
-#[must_use]
-pub fn equations(flow: &Coupled) -> String {
-    let n = |x: f64| significant(x, 5);
-    let bed = &flow.bed;
-    let surface = match flow.surface {
-        Surface::Height(height) => format!("{} m over the mean centre of the fixed grains", n(height)),
-        Surface::Depth(depth) => format!("{} m over the bed at rest", n(depth)),
-    };
-    format!(
-        "ε ρ_f du/dt = d(ε τ_f)/dz + dR/dz + ε ρ_f g sin α - n f - side walls, ρ_f = {} kg/m³, ν = {} m²/s, g sin α = {} m/s²; \
-         no slip at z = 0, free surface {surface}.\nm dv/dt = Σ contacts + m g sin α e_x - (m - ρ_f V) g cos α e_z + f\n\
-         f = (π d²/8) ρ_f ({} |w| + {} m/s) (1 - φ)^-{} w, w = u + u' - v\nR = ρ_f ε l² |du/dz| du/dz\n\
-         fluid solved every {} s, {}\n\n{} mobile spheres, d = {} m, ρ_p = {} kg/m³; x periodic over {} m, y {} {} m.\n\n{}",
-        n(flow.rho_f),
-        n(flow.nu()),
-        n(bed.g * bed.beta.sin()),
-        n(flow.drag.constant),
-        n(flow.drag.viscous(flow.nu(), bed.d)),
-        n(flow.drag.exponent),
-        n(flow.coupling_period),
-        match flow.fluctuation {
-            Fluctuation::None => "no eddies (u' = 0)",
-            Fluctuation::RandomWalk(_) => "u' drawn anew for each grain every w_d/U",
-        },
-        bed.mobile,
-        n(bed.d),
-        n(bed.rho_p),
-        n(bed.size[0]),
-        if bed.side_walls { "between walls at a distance of" } else { "periodic over" },
-        n(bed.size[1]),
-        contact_equations(&bed.contact)
-    )
 }

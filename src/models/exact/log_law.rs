@@ -6,11 +6,11 @@
 
 pub use super::log_law_case::RoughWall;
 use super::{Column, balance, closure_name, outcome, outside, tabulate};
-use crate::closures::mixing_length::Length;
+use crate::closures::mixing_length::{Length, prandtl};
 use crate::closures::wall::rough;
 use crate::numerics::quadrature::simpson;
 use crate::result::{Failure, Outcome, Results, Watch, quantity as q};
-use crate::units::significant;
+use crate::units::{significant, stated};
 
 /// The closed form with its constants, in SI.
 #[derive(Clone, Copy, Debug)]
@@ -104,13 +104,14 @@ pub fn equations(wall: &RoughWall) -> String {
     format!(
         "Turbulent layer of constant stress over a rough wall, H = {h} m.\n\n\
          stress         R_xz = ρ_f l_m² u'² = ρ_f u_*²,  u_* = {u_star} m/s,  ρ_f = {rho} kg/m³\n\
-         mixing length  l_m = κ z,  κ = {kappa}\n\
-         wall           u(z_0) = 0,  z_0 = k_s/30 = {z_0} m\n\
+         mixing length  {mixing}\n\
+         wall           {rough},  z_0 = {z_0} m\n\
          velocity       u = (u_*/κ) ln(z/z_0)\n",
         h = n(wall.h),
         u_star = n(wall.u_star),
         rho = n(wall.rho_f),
-        kappa = n(wall.mixing_length.kappa),
+        mixing = stated(prandtl::INFO.equation, &wall.mixing_length.constants()),
+        rough = rough::INFO.equation,
         z_0 = n(wall.wall.roughness_length()),
     )
 }

@@ -4,20 +4,22 @@ use serde_json::{Map, Value, json};
 
 use super::bed::{Bed, Dilation, Nodes, Solution};
 use super::mesh::Mesh;
+use crate::closures::dilatancy::{self, phi_iv};
+use crate::closures::friction::{coulomb, mu_iv};
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::Regularisation;
 use crate::models::BedError;
 use crate::models::bed_error::in_si;
 use crate::models::exact::bed::{Drive, LaminarBed};
 use crate::models::exact::bed_results::{BedNumbers, Maximum};
-use crate::models::exact::ouriemi::viscosity_text;
+use crate::models::exact::ouriemi::{drag_text, viscosity_text};
 use crate::models::exact::{balance, no_root, outcome};
 use crate::models::laminar::RegularisedBed;
 use crate::numerics::root::brent;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Quantity, Snapshot, SolveError, TableError, Watch, quantity as q,
 };
-use crate::units::significant;
+use crate::units::{significant, stated};
 
 impl Bed {
     /// The bed in the units of the model, driven by `f`.
@@ -234,7 +236,7 @@ pub fn equations(problem: &RegularisedBed) -> String {
          units              H = {h} m,  (ρ_p - ρ_f) g H = {stress} Pa,  (ρ_p - ρ_f) g H²/η = {velocity} m/s\n\
          drive              {drive}\n\
          particle pressure  P_p = {pressure},  φ = {phi},  h_p = {h_p}\n\
-         viscosity          η_e/η = e = {relative} = {e} in the bed, 1 above\n\
+         viscosity          {viscosity},  e = η_e/η = {e} in the bed, 1 above\n\
          friction           {friction}\n\
          packing            {packing}\n\
          yield              {yielding}\n\n\
@@ -246,25 +248,24 @@ pub fn equations(problem: &RegularisedBed) -> String {
         pressure = if bed.dilatancy.is_some() { "integral of φ from z to h_p" } else { "φ (h_p - z)" },
         phi = n(bed.phi),
         h_p = n(bed.h_p / bed.h),
-        relative = viscosity_text(bed),
+        viscosity = viscosity_text(bed),
         e = n(bed.viscosity.relative(bed.phi)),
         friction = friction_text(bed),
-        packing = bed.dilatancy.map_or("φ is the same at every shear rate".into(), |law| {
-            format!(
-                "φ falls to φ/(1 + a sqrt(I_v)),  a = {},  changes P_p{}",
-                n(law.a),
+        packing = match bed.dilatancy {
+            None => format!("{} at every shear rate", dilatancy::none::INFO.equation),
+            Some(law) => format!(
+                "{},  changes P_p{}",
+                stated(phi_iv::INFO.equation, &[("φ_bed", bed.phi, ""), ("a", law.a, "")]),
                 if bed.drag.is_some() { ", e and K" } else { " and e" }
-            )
-        }),
+            ),
+        },
         yielding = yield_text(regularisation, bed.velocity_scale() / bed.h),
     );
     if let Some(law) = bed.drag {
-        let k = law.permeability(bed.phi, bed.d / bed.h);
         text += &format!(
             "grains             τ_p' + (U - u_p)/K = 0,  u_p(0) = 0\n\
-             permeability       K = (1 - φ)³ (d/H)²/(k_CK φ²) = {},  Brinkman length sqrt(K e) = {} d\n",
-            n(k),
-            n((k * bed.viscosity.relative(bed.phi)).sqrt() * bed.h / bed.d),
+             drag               {}\n",
+            drag_text(bed, law)
         );
     } else {
         text += "grains             u_p = U\n";
@@ -273,16 +274,14 @@ pub fn equations(problem: &RegularisedBed) -> String {
 }
 
 fn friction_text(bed: &LaminarBed) -> String {
-    let n = |x: f64| significant(x, 4);
-    match bed.rise {
-        None => format!("τ_p = μ_s P_p R(γ),  μ_s = {},  γ = u_p'", n(bed.friction.mu_s)),
-        Some(law) => format!(
-            "τ_p = P_p (μ_s R(γ) + (μ_2 - μ_s)/(I_0/I_v + 1)),  I_v = γ/P_p,  γ = u_p',  μ_s = {}, μ_2 = {}, I_0 = {}",
-            n(law.mu_s),
-            n(law.mu_2),
-            n(law.i_0)
-        ),
-    }
+    let law = match bed.rise {
+        None => stated(coulomb::INFO.equation, &[("μ_s", bed.friction.mu_s, "")]),
+        Some(law) => {
+            let constants = [("μ_s", law.mu_s, ""), ("μ_2", law.mu_2, ""), ("I_0", law.i_0, "")];
+            format!("τ_p = μ(I_v) P_p,  {}", stated(mu_iv::INFO.equation, &constants))
+        }
+    };
+    format!("{law},  with μ_s R(γ) for μ_s,  γ = u_p'")
 }
 
 /// The law of the regularisation, with its size.

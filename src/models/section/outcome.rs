@@ -9,8 +9,11 @@ use super::full::Full;
 use super::newton::{self, Unsolved};
 use super::numbers::Numbers;
 use super::solve::Solution;
+use crate::closures::drag::carman_kozeny;
+use crate::closures::friction::coulomb;
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::{Regularisation, Smoothing};
+use crate::models::exact::ouriemi::viscosity_text;
 use crate::models::premises::{self, outside};
 use crate::models::section::SectionError;
 use crate::models::section::{Contents, DuctFlow, Method, Outline};
@@ -19,7 +22,7 @@ use crate::result::{
     quantity as q, quantity::Quantity,
 };
 use crate::result::{Field, NumericalError};
-use crate::units::significant;
+use crate::units::{significant, stated};
 
 impl Unsolved {
     /// The reason in SI; `shear` is the unit of the shear rate [1/s].
@@ -335,23 +338,32 @@ pub fn equations(flow: &DuctFlow) -> String {
         ),
         Filling::Bed { level, e, resistance, k } => {
             let bed = format!(
-                "bed        z < h_p = {} H,  viscosity e = {},  yield stress y = μ_s φ (h_p - z),  μ_s φ = {}\n",
+                "bed        z < h_p = {} H,  viscosity e = η_e/η = {},  yield stress y = μ_s φ (h_p - z),  μ_s φ = {}\n",
                 n(level),
                 n(e),
                 n(resistance)
             );
-            bed + &match k {
-                None => "minimum    ∫ e |∇u|²/2 + y |∇u| - f u  over the section,  u = 0 on the wall\n".into(),
-                Some(k) => format!(
+            bed + match k {
+                None => "minimum    ∫ e |∇u|²/2 + y |∇u| - f u  over the section,  u = 0 on the wall\n",
+                Some(_) => {
                     "minimum    ∫ e |∇U|²/2 - f U  over the section  +  ∫ (U - u_p)²/(2 K) + y |∇u_p|  over the bed\n\
-                     \x20          U = 0 and u_p = 0 on the wall\n\
-                     drag       K = (1 - φ)³ (d/H)²/(k_CK φ²) = {},  Brinkman length sqrt(K e) = {} H\n",
-                    n(k),
-                    n((k * e).sqrt())
-                ),
+                     \x20          U = 0 and u_p = 0 on the wall\n"
+                }
             }
         }
     };
+    if let Contents::Bed(bed) = &flow.contents {
+        text += &format!("viscosity  {}\nfriction   {}\n", viscosity_text(bed), coulomb::INFO.equation);
+        text.extend(bed.drag.map(|law| {
+            let k = law.permeability(bed.phi, bed.d / bed.h);
+            format!(
+                "drag       {},  ε = 1 - φ,  in these units K = {},  Brinkman length sqrt(K e) = {} H\n",
+                stated(carman_kozeny::INFO.equation, &[("k_CK", law.k_ck, "")]),
+                n(k),
+                n((k * bed.viscosity.relative(bed.phi)).sqrt())
+            )
+        }));
+    }
     let Regularisation { law, lambda } = flow.regularisation;
     let lead = if law == Smoothing::Simple { "|γ| y replaced so that the stress is" } else { "stress" };
     let yielding = law

@@ -81,14 +81,16 @@ fn equations(cell: &ShearCell) -> String {
         cell.granular.parts().iter().map(|info| format!("              {}\n", info.equation)).collect();
     format!(
         "Grains that collide between two walls {h} m apart, d = {d} m, without fluid or gravity.\n\n\
-         pressure      p = ρ_p F₁ T, the same at every height;  the mean of φ is {phi}\n\
-         stress        τ = ρ_p d F₂ T^½ u_p', the same at every height\n\
-         heat          0 = τ u_p' - q' - (ρ_p/d) F₄(e_eff) T^(3/2),  q = -ρ_p d F₃ T^½ T'\n\
+         pressure      p_kin, the same at every height;  the mean of φ is {phi}\n\
+         stress        τ = η u_p', the same at every height\n\
+         heat          0 = τ u_p' - q' + Γ,  q = -κ T'\n\
+         theory        {theory}\n\
          walls         u_p = {v0} and {v1} m/s,  T = {t0} and {t1} m²/s²\n\
          grains        e = {e}, e_eff = {e_eff};  nothing limits the flight of a grain but the others\n{parts}",
         h = n(cell.h),
         d = n(cell.d),
         phi = n(cell.phi),
+        theory = cell.granular.info().equation,
         v0 = n(cell.velocity[0]),
         v1 = n(cell.velocity[1]),
         t0 = n(cell.temperature[0]),

@@ -12,8 +12,8 @@ use super::profile::profile;
 use super::solve::{self, Solved};
 use crate::closures::dilatancy::phi_i;
 use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE};
-use crate::closures::lid::{Lid, colebrook_white};
-use crate::closures::suspension::{Suspension, rouse};
+use crate::closures::lid::Lid;
+use crate::closures::suspension::Settling;
 use crate::closures::{Info, Range};
 use crate::models::BedError;
 use crate::models::exact::bed_results::closure_name;
@@ -153,9 +153,9 @@ fn results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &La
     results.set(&q::SHIELDS, state.tau_b);
     let u_star = velocity * state.tau_b.sqrt();
     results.set(&q::U_STAR, u_star);
-    match sheet.suspension {
-        Suspension::Rouse(law) => results.set(&q::SUSPENSION_NUMBER, law.settling_velocity / u_star),
-        Suspension::None => results.undefined(&q::SUSPENSION_NUMBER, "no suspension"),
+    match sheet.suspension.settling_velocity() {
+        Some(w_s) => results.set(&q::SUSPENSION_NUMBER, w_s / u_star),
+        None => results.undefined(&q::SUSPENSION_NUMBER, "no suspension"),
     }
     sheet_results(sheet, solved, layers, &mut results);
     results.set(&q::ROUGHNESS, layers.inflow.length * d);
@@ -284,12 +284,12 @@ fn validity<F: FrictionLaw>(sheet: &SheetFlow<F>, results: &Results, layers: &La
         found.extend(at(sheet.viscosity.info(), range, phi, top));
         found.extend(at(sheet.viscosity.info(), range, sheet.dilatancy.phi_max, 0.0));
     }
-    if let Suspension::Rouse(_) = sheet.suspension {
-        found.extend(at(&rouse::INFO, &rouse::RANGE, phi, top));
+    for range in sheet.suspension.info().ranges {
+        found.extend(at(sheet.suspension.info(), range, phi, top));
     }
-    if let Lid::ColebrookWhite(_) = sheet.lid {
+    for range in sheet.lid.info().ranges {
         let reynolds = sheet.rho_f * 2.0 * layers.totals.discharge * sheet.velocity_scale() * sheet.d / sheet.eta;
-        found.extend(at(&colebrook_white::INFO, &colebrook_white::RANGE, reynolds, sheet.height / sheet.d));
+        found.extend(at(sheet.lid.info(), range, reynolds, sheet.height / sheet.d));
     }
     if let Some(thickness) = results.get(q::SHEET_THICKNESS.name) {
         found.extend(outside("continuum/moving layer".into(), &THICKNESS, thickness / sheet.d));

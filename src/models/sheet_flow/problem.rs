@@ -13,7 +13,7 @@ use crate::closures::mixing_length::{self, BelowPacked, LiSawamoto};
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::rearrangement::Rearrangement;
 use crate::closures::role::Only;
-use crate::closures::suspension::Suspension;
+use crate::closures::suspension::{Settling, Suspension};
 use crate::model::{
     COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
     Term, TermTest, TurbulentScene,
@@ -278,10 +278,7 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
             theta,
             mu_s: flow.friction.least(),
             contacts: None,
-            settling: match flow.suspension {
-                Suspension::Rouse(law) => Some(law.settling_velocity),
-                Suspension::None => None,
-            },
+            settling: flow.suspension.settling_velocity(),
             walls: false,
             grains: None,
         })))

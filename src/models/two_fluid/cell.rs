@@ -10,8 +10,8 @@
 //! equation of heat in any flow.
 
 use super::face::Setting;
-use super::laws::Moving;
 use super::state::{Cell, FLUID, GRAINS, HEAT, LENGTH, LOGIT, SIZE};
+use crate::closures::kinetic::Moving;
 use crate::closures::kinetic::drag_work::Damping;
 use crate::numerics::dual::Real;
 

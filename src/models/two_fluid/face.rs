@@ -12,8 +12,9 @@
 //! of p over the logarithmic mean of phi, which is exact in a packed bed and in a dilute one, whose solid fraction falls
 //! exponentially, and keeps phi positive on any grid.
 
-use super::laws::{Laws, Moving};
+use super::laws::Laws;
 use super::state::{Cell, FLUID, GRAINS, HEAT, LENGTH, LOGIT, RISE, SIZE, VOLUME};
+use crate::closures::kinetic::Moving;
 use crate::closures::mixing_length::Length;
 use crate::numerics::dual::Real;
 

@@ -4,18 +4,9 @@
 use crate::closures::dispersion::Spread;
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::kinetic::static_friction::Threshold;
-use crate::closures::kinetic::{Elastic, Granular, Inertial, JohnsonJackson, Kinetic};
+use crate::closures::kinetic::{Elastic, JohnsonJackson, Moving, Stresses};
 use crate::closures::mixing_length::{LowSubmergence, MixingLength};
 use crate::models::two_fluid::{FluidStress, TwoFluid};
-
-/// Stresses of grains that move.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Moving {
-    /// kinetic theory
-    Kinetic(Kinetic),
-    /// mu(I) and phi(I): the granular temperature is then the square of the shear rate
-    Inertial(Inertial),
-}
 
 /// Laws, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -73,11 +64,6 @@ impl Laws {
         let ratio = flow.rho_p / flow.rho_f;
         // rho_f g sin(beta), and rho_p g sin(beta), over (rho_p - rho_f) g per volume; the second by the ratio of densities.
         let drive = flow.beta.sin() / (ratio - 1.0);
-        let moving = match flow.granular {
-            Granular::Inertial(law) => Moving::Inertial(law),
-            Granular::GarzoDufty(law) => Moving::Kinetic(law.kinetic(flow.e, flow.mu_p)),
-            Granular::FrictionalCollisional(law) => Moving::Kinetic(law.kinetic(flow.e, flow.mu_p)),
-        };
         let elastic = match flow.elastic {
             Elastic::JohnsonJackson(law) => JohnsonJackson { p_0: law.p_0 / stress, ..law },
             Elastic::None => JohnsonJackson { p_0: 0.0, phi_rlp: flow.phi_max },
@@ -87,7 +73,7 @@ impl Laws {
             weight: flow.beta.cos(),
             drive: [drive; 2],
             nu: flow.eta / (flow.rho_f * velocity * d),
-            moving,
+            moving: flow.granular.moving(flow.e, flow.mu_p),
             elastic,
             mu_s: flow.static_friction.mu_s(flow.mu_p),
             phi_max: flow.phi_max,

@@ -1,10 +1,11 @@
 //! What a state says of each cell, in the units of the grains.
 
 use super::face::Mobilised;
-use super::laws::{Laws, Moving};
+use super::laws::Laws;
 use super::start::middles;
 use super::state::{Cell, Unknowns};
 use super::system::{Column, Memory};
+use crate::closures::kinetic::Moving;
 use crate::closures::kinetic::radial::AtContact;
 use crate::closures::mixing_length::Length;
 

@@ -1,9 +1,9 @@
 //! Newton's method on the column at one time.
 
 use super::face::Mobilised;
-use super::laws::Moving;
 use super::state::{Cell, HEAT, LENGTH, LOGIT, SIZE, Unknowns, VOLUME, solid};
 use super::system::{Column, Linear, Memory};
+use crate::closures::kinetic::Moving;
 
 /// A step changes the logit of the solid fraction and the logarithm of the temperature by this much at most.
 const LONGEST: f64 = 2.0;

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use super::face::Mobilised;
 use super::in_time;
-use super::laws::{Laws, Moving};
+use super::laws::Laws;
 use super::levels::{Levels, NONE};
 use super::newton::NotConverged;
 use super::profile::profile;
@@ -12,7 +12,8 @@ use super::state::Unknowns;
 use super::steady;
 use super::system::{Column, Spacing};
 use crate::closures::friction::INERTIAL_RANGE;
-use crate::closures::kinetic::{Granular, garzo_dufty};
+use crate::closures::kinetic::Moving;
+use crate::closures::kinetic::garzo_dufty::RESTITUTION_RANGE;
 use crate::models::exact::bed_results::closure_name;
 use crate::models::exact::{balance, outcome};
 use crate::models::premises::outside;
@@ -216,20 +217,20 @@ fn balances(column: &Column, levels: &Levels) -> Vec<Balance> {
 /// Laws used outside their range.
 fn validity(flow: &TwoFluid, column: &Column, levels: &Levels) -> Vec<Validity> {
     let mut found = Vec::new();
-    match flow.granular {
-        Granular::Inertial(_) => {
-            let inertial = levels
+    for range in flow.granular.info().ranges {
+        let value = if range.variable == INERTIAL_RANGE.variable {
+            levels
                 .cells
                 .iter()
                 .filter(|level| level.phi > NONE)
                 .map(|level| level.shear.abs() * (column.laws.ratio / (level.pressure + level.elastic)).sqrt())
-                .fold(0.0, f64::max);
-            found.extend(outside(closure_name(flow.granular.info()), &INERTIAL_RANGE, inertial));
-        }
-        Granular::GarzoDufty(_) | Granular::FrictionalCollisional(_) => {
-            let range = &garzo_dufty::RESTITUTION_RANGE;
-            found.extend(outside(closure_name(flow.granular.info()), range, flow.e));
-        }
+                .fold(0.0, f64::max)
+        } else if range.variable == RESTITUTION_RANGE.variable {
+            flow.e
+        } else {
+            continue;
+        };
+        found.extend(outside(closure_name(flow.granular.info()), range, value));
     }
     let densest = levels.cells.iter().map(|level| level.phi).fold(0.0, f64::max);
     for range in flow.mixing_length.info().ranges {

@@ -5,7 +5,7 @@ use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::DallavalleGrain;
-use crate::closures::kinetic::{Elastic, Granular, StaticFriction, Stresses};
+use crate::closures::kinetic::{Elastic, Granular, Moving, StaticFriction, Stresses};
 use crate::closures::mixing_length::{self, BelowPacked, MixingLength};
 use crate::closures::{Info, drag};
 use crate::model::{
@@ -290,7 +290,11 @@ fn below(name: &str, value: f64, phi_max: f64) -> Fault {
 fn laws(flow: &TwoFluid) -> Vec<&'static Info> {
     let mut laws = vec![flow.granular.info()];
     laws.extend(flow.granular.parts());
-    laws.extend([flow.elastic.info(), flow.static_friction.info(), &drag::dallavalle_grain::INFO]);
-    laws.extend([flow.mixing_length.info(), flow.dispersion.info()]);
+    laws.push(flow.elastic.info());
+    if let Moving::Kinetic(_) = flow.granular.moving(flow.e, flow.mu_p) {
+        // Under mu(I) the grains in contact carry no friction of their own.
+        laws.push(flow.static_friction.info());
+    }
+    laws.extend([&drag::dallavalle_grain::INFO, flow.mixing_length.info(), flow.dispersion.info()]);
     laws
 }

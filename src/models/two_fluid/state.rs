@@ -8,7 +8,8 @@
 //!
 //! The logit cannot leave (0, phi_max), nor the logarithm the positive numbers: nothing is clipped.
 
-use super::laws::{Laws, Moving};
+use super::laws::Laws;
+use crate::closures::kinetic::Moving;
 use crate::closures::mixing_length::Length;
 use crate::numerics::dual::{Dual, Real};
 

@@ -11,7 +11,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::closures::{Info, Range, Standing};
+use super::Enduring;
+use crate::closures::{Constant, Info, Range, Standing};
 use crate::numerics::dual::Real;
 
 /// Catalogue entry.
@@ -49,6 +50,12 @@ impl Default for JohnsonJackson {
     /// As published.
     fn default() -> Self {
         Self { p_0: p_0(), phi_rlp: phi_rlp() }
+    }
+}
+
+impl Enduring for JohnsonJackson {
+    fn constants(&self) -> Vec<Constant> {
+        vec![("P₀", self.p_0, "Pa"), ("φ_rlp", self.phi_rlp, "")]
     }
 }
 

@@ -1,5 +1,6 @@
 //! Pressure of enduring contacts.
 
+use crate::closures::Constant;
 use crate::closures::role::role;
 
 role! {
@@ -7,6 +8,13 @@ role! {
     pub enum Elastic {
         none::None,
         johnson_jackson::JohnsonJackson(..),
+    }
+
+    /// What the laws of this pressure answer.
+    pub trait Enduring {
+        /// Constants of the law, of which the phi_max of the bed is none.
+        #[must_use]
+        fn constants(&self) -> Vec<Constant>;
     }
 }
 

@@ -2,7 +2,8 @@
 
 use schemars::JsonSchema;
 
-use crate::closures::{Info, Standing};
+use super::Enduring;
+use crate::closures::{Constant, Info, Standing};
 
 /// Catalogue entry.
 pub static INFO: Info = Info {
@@ -17,3 +18,9 @@ pub static INFO: Info = Info {
 /// Grains touch in collisions only.
 #[derive(JsonSchema)]
 pub struct None;
+
+impl Enduring for None {
+    fn constants(&self) -> Vec<Constant> {
+        Vec::new()
+    }
+}

@@ -29,7 +29,7 @@ mod outcome;
 mod tests;
 
 use crate::closures::mixture_viscosity::RelativeViscosity;
-pub(in crate::models) use outcome::viscosity_text;
+pub(in crate::models) use outcome::{drag_text, viscosity_text};
 pub use outcome::{equations, run};
 
 use super::brinkman::Brinkman;

@@ -1,6 +1,8 @@
 //! Ouriemi's bed in SI: profile, numbers, balances, and the equations with their numbers.
 
 use super::{Scaled, Solution, solve};
+use crate::closures::drag::{CarmanKozeny, carman_kozeny};
+use crate::closures::friction::coulomb;
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::models::exact::bed::{Drive, LaminarBed};
 use crate::models::exact::bed_results::BedNumbers;
@@ -8,7 +10,7 @@ use crate::models::exact::{Column, balance, outcome, tabulate};
 use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
 use crate::result::{Balance, Failure, Outcome, Watch, quantity as q};
-use crate::units::significant;
+use crate::units::{significant, stated};
 
 /// Evaluates the closed form for `bed` on about `cells` levels.
 ///
@@ -108,7 +110,7 @@ pub fn equations(bed: &LaminarBed) -> String {
     let n = |x: f64| significant(x, 5);
     let (e, resistance) = (bed.viscosity.relative(bed.phi), bed.friction.stress(bed.phi));
     let weight = (bed.rho_p - bed.rho_f) * bed.g;
-    let (h_p, relative) = (bed.h_p / bed.h, viscosity_text(bed));
+    let h_p = bed.h_p / bed.h;
     let drive = match bed.drive {
         Drive::PressureGradient(p) => format!("f = -dp/dx/((ρ_p - ρ_f) g) = {}", n(p / weight)),
         Drive::Shields(theta) => format!("f such that the Shields number is {}", n(theta)),
@@ -118,8 +120,8 @@ pub fn equations(bed: &LaminarBed) -> String {
          units              H = {h} m,  (ρ_p - ρ_f) g H = {stress} Pa,  (ρ_p - ρ_f) g H²/η = {velocity} m/s\n\
          drive              {drive}\n\
          particle pressure  P_p = φ (h_p - z),  φ = {phi},  h_p = {h_p}\n\
-         friction           τ_p = μ_s P_p where the grains shear,  μ_s φ = {resistance}\n\
-         viscosity          η_e/η = e = {relative} = {e}\n\n\
+         friction           {friction} where the grains shear,  μ_s φ = {resistance}\n\
+         viscosity          {viscosity},  e = η_e/η = {e}\n\n\
          clear fluid  h_p < z < 1     U'' + f = 0,  U(1) = 0\n",
         form = bed.form_name(),
         h = n(bed.h),
@@ -127,7 +129,9 @@ pub fn equations(bed: &LaminarBed) -> String {
         velocity = n(bed.velocity_scale()),
         phi = n(bed.phi),
         h_p = n(h_p),
+        friction = coulomb::INFO.equation,
         resistance = n(resistance),
+        viscosity = viscosity_text(bed),
         e = n(e),
     );
     if let Some(law) = bed.drag {
@@ -135,14 +139,13 @@ pub fn equations(bed: &LaminarBed) -> String {
         text += &format!(
             "mobile bed   h_c < z < h_p   e U'' + f - μ_s φ = 0,  U - u_p = K μ_s φ = {slip}\n\
              static bed   0 < z < h_c     e U'' + f - U/K = 0,  u_p = 0,  U(0) = 0\n\
-             permeability K = (1 - φ)³ (d/H)²/(k_CK φ²) = {k},  Brinkman length sqrt(K e) = {l} d\n\
+             drag         {drag}\n\
              yield level  h_c from K μ_s φ + s Y + B Y²/2 + e (s + B Y) D - f D²/2 = 0,\n\
              \u{20}            s = U'(h_c) of the static layer,  Y = h_p - h_c,  D = 1 - h_p = {d},\n\
              \u{20}            B = (μ_s φ - f)/e\n\
              flux         q_p = φ (s Y²/2 + B Y³/6);  no grain moves while U(h_p) < K μ_s φ\n",
             slip = n(k * resistance),
-            k = n(k),
-            l = n((k * e).sqrt() * bed.h / bed.d),
+            drag = drag_text(bed, law),
             d = n(1.0 - h_p),
         );
     } else {
@@ -157,15 +160,19 @@ pub fn equations(bed: &LaminarBed) -> String {
     text
 }
 
-/// What the law of the viscosity multiplies that of the fluid by: `η_e = η (...)`, with the solid fraction at which it diverges.
+/// The law of the viscosity, with its constants.
 pub(in crate::models) fn viscosity_text(bed: &LaminarBed) -> String {
-    let equation = bed.viscosity.info().equation;
-    match equation.strip_prefix("η_e = η") {
-        Some("") => "1".into(),
-        Some(factor) => {
-            let factor = factor.trim_start_matches(" (").strip_suffix(')').unwrap_or(factor);
-            factor.replace("φ_max", &significant(bed.viscosity.phi_max(), 4))
-        }
-        None => equation.into(),
-    }
+    stated(bed.viscosity.info().equation, &bed.viscosity.constants())
+}
+
+/// The law of the drag, with the permeability of the bed that it gives.
+pub(in crate::models) fn drag_text(bed: &LaminarBed, law: CarmanKozeny) -> String {
+    let n = |x: f64| significant(x, 5);
+    let k = law.permeability(bed.phi, bed.d / bed.h);
+    format!(
+        "{},  ε = 1 - φ,  in these units K = {},  Brinkman length sqrt(K e) = {} d",
+        stated(carman_kozeny::INFO.equation, &[("k_CK", law.k_ck, "")]),
+        n(k),
+        n((k * bed.viscosity.relative(bed.phi)).sqrt() * bed.h / bed.d)
+    )
 }
