@@ -165,9 +165,14 @@ pub struct Film {
 
 impl Model for Film {
     const INFO: ModelInfo = ModelInfo::new("thin-film");
+    type Scene = BenchmarkScene;
     type Tables = FilmTables;
 
-    fn build(tables: &FilmTables, faults: &mut Faults) -> Option<Self> {
+    fn scene(tables: &FilmTables) -> BenchmarkScene {
+        BenchmarkScene { fluid: Some((&tables.fluid).into()), grains: None }
+    }
+
+    fn build(_: &BenchmarkScene, tables: &FilmTables, faults: &mut Faults) -> Option<Self> {
         let FilmTables { fluid, flow, closures, grid, .. } = tables;
         let Viscosity::Power { n, .. } = closures.viscosity;
         if grid.cells as f64 * n < FEWEST {

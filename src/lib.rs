@@ -13,6 +13,7 @@
 //! | [`units`], [`numerics`], [`runtime`] | quantities as text; methods that know no physics; cost and interruption |
 //! | [`closures`], [`result`] | laws; profiles, series, summaries |
 //! | [`case`] | case files: text, places in it, schema, diagnostics. The only module that knows TOML, and no model |
+//! | [`scene`] | the physical flow, whatever solves it, and its numbers |
 //! | [`mod@column`], [`dem`] | the fluid of one dimension among whatever grains; grains one by one |
 //! | [`model`] | what a model is: the trait, the registry, the checked problem |
 //! | [`models`] | the models, one folder each |
@@ -59,6 +60,7 @@ pub mod plot;
 pub mod prelude;
 pub mod result;
 pub mod runtime;
+pub mod scene;
 #[cfg(feature = "plot")]
 pub mod study;
 pub mod units;

@@ -9,4 +9,5 @@ pub use crate::result::{
     Context, Failure, MethodError, Outcome, Profile, Quiet, Results, Series, Snapshot, SolveError, Status, Watch,
     quantity,
 };
+pub use crate::scene::{BedScene, BenchmarkScene, ChannelScene, GranularScene, Scene};
 pub use crate::tables;

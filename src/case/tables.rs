@@ -92,6 +92,29 @@ impl SlopeDefinition {
     }
 }
 
+/// A pressure gradient that goes to and fro, of the fluid and the grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Oscillation {
+    /// Amplitude G of the fall of pressure along the flow: -dp/dx = G cos(2 pi t/period).
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
+    pub amplitude: f64,
+    /// Period.
+    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
+    pub period: f64,
+}
+
+/// Outline of a cross-section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shape {
+    /// A rectangle, or a square.
+    Rectangle,
+    /// A circle.
+    Circle,
+    /// Two planes without side walls: the same elements give the plane flow.
+    Planes,
+}
+
 /// The levels at which the profile is given.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grid {

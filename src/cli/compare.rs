@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use super::progress::Progress;
 use super::{CliError, Verb, answer, say, word};
 use crate::case::Case;
-use crate::compare::{Align, CompareError, Comparison, NormRow, Request, Subject, compare, data, percent};
+use crate::compare::{Align, CompareError, Comparison, NormRow, Request, Stated, Subject, compare, data, percent};
 use crate::model::Problem;
 use crate::model::Registry;
 use crate::output::{Compared, prepare_comparison, read_run, write_comparison};
@@ -140,7 +140,9 @@ impl Compare {
             if path.is_dir() {
                 let (summary, profile) = read_run(path)?;
                 names.push(path.file_name().map_or(summary.case.clone(), |n| n.to_string_lossy().into_owned()));
-                loaded.push(Loaded::Ready(Box::new(Subject::of_run(argument, summary, profile)?)));
+                let mut subject = Subject::of_run(argument, summary, profile)?;
+                subject.stated = stated_by(registry, path).or(subject.stated);
+                loaded.push(Loaded::Ready(Box::new(subject)));
             } else if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
                 let message = format!("{argument} is a table, not a case or a run");
                 return Err(CliError::Usage { message, hint: format!("give it as --data {argument}") });
@@ -188,6 +190,9 @@ impl Compare {
         if left > 0 {
             line("", format!("and {left} more in norms.csv"));
         }
+        if let Some(inputs) = comparison.inputs_that_differ() {
+            line("inputs differ", format!("{inputs} (see the report)"));
+        }
         let warnings = comparison.warnings();
         if let Some(first) = warnings.first() {
             let more =
@@ -227,7 +232,20 @@ fn solve(case: &Case, problem: &Problem, progress: &mut Progress) -> Result<Subj
     if outcome.status == Status::Stopped {
         return Err(CliError::Stopped(json!({ "status": Status::Stopped }), false));
     }
-    Ok(Subject::of_case(&case.name, &case.source, problem.model_name(), outcome, solve_s)?)
+    let subject = Subject::of_case(&case.name, &case.source, problem.model_name(), outcome, solve_s)?;
+    Ok(Subject { stated: stated(case, problem), ..subject })
+}
+
+/// The flow of a case and how it is solved.
+fn stated(case: &Case, problem: &Problem) -> Option<Stated> {
+    problem.scene.as_ref().map(|scene| Stated::new(case.model, scene.record(), case.tables()))
+}
+
+/// The same of a run, if its folder holds a case that this program reads.
+fn stated_by(registry: &Registry, run: &Path) -> Option<Stated> {
+    let text = std::fs::read_to_string(run.join("case.toml")).ok()?;
+    let (case, problem) = registry.parse("run", "case.toml", text, &[]).ok()?;
+    stated(&case, &problem)
 }
 
 /// A velocity, or else the first column in common, and the transport rate.

@@ -202,6 +202,7 @@ pub fn parse(text: &str, stem: &str, source: &str) -> Result<Subject, DataFault>
         validity: Vec::new(),
         solve_s: 0.0,
         work: 0.0,
+        stated: None,
     })
 }
 

@@ -8,6 +8,7 @@
 
 pub mod data;
 pub mod frame;
+mod inputs;
 pub mod norms;
 mod numbers;
 mod page;
@@ -19,6 +20,7 @@ use serde::Serialize;
 
 pub use data::{DataError, DataFault};
 pub use frame::{Align, Scales, View, scaled_unit};
+pub use inputs::{InputRow, Stated};
 pub use norms::{Deviation, Side, Sigmas};
 pub use numbers::NumberRow;
 pub use page::{origin, percent};
@@ -67,6 +69,8 @@ pub struct Subject {
     pub solve_s: f64,
     /// cells or grains times steps, if it was run for the comparison
     pub work: f64,
+    /// its flow and how it was solved, if that is known
+    pub stated: Option<Stated>,
 }
 
 /// Why there is nothing to compare, or not like this.
@@ -125,6 +129,18 @@ pub enum CompareError {
         #[source]
         error: TableError,
     },
+    /// flows that have nothing to do with each other
+    #[error("{other} is a scene of the kind {other_kind}, {reference} one of the kind {kind}")]
+    DifferentKinds {
+        /// the first
+        reference: String,
+        /// its kind
+        kind: String,
+        /// the other
+        other: String,
+        /// its kind
+        other_kind: String,
+    },
     /// neither a column at common elevations nor a number
     #[error("{reference} shares no column at a common elevation and no number with any other")]
     NothingShared {
@@ -140,6 +156,7 @@ codes!(CompareError {
     Self::NoNumber { .. } => "no-number",
     Self::NoScale { .. } => "no-scale",
     Self::NotFinite { .. } => "not-finite",
+    Self::DifferentKinds { .. } => "different-kinds",
     Self::NothingShared { .. } => "nothing-shared",
 } nested {
     Self::Data(error) => error.fault.code(),
@@ -159,6 +176,10 @@ impl CompareError {
             }
             Self::NoScale { .. } => "leave --scale out; data state mean_velocity_m_s in a comment".into(),
             Self::NotFinite { .. } => "check the scales".into(),
+            Self::DifferentKinds { .. } => {
+                "compare flows over a bed with each other, channels with channels, grains alone with grains alone"
+                    .into()
+            }
             Self::NothingShared { .. } => "compare profiles with common columns whose elevations overlap".into(),
         }
     }
@@ -181,7 +202,8 @@ impl Subject {
         let (name, source) = (name.into(), source.into());
         let (kind, notes) = (Kind::Case, Vec::new());
         let errors = profile.standard_errors();
-        Ok(Self { name, label: model, kind, source, notes, profile, errors, results, validity, solve_s, work })
+        let stated = None;
+        Ok(Self { name, label: model, kind, source, notes, profile, errors, results, validity, solve_s, work, stated })
     }
 
     /// A run as its folder `source` holds it.
@@ -193,10 +215,12 @@ impl Subject {
             return Err(CompareError::NotDone { subject: source.into(), status: summary.status });
         }
         let profile = profile.ok_or_else(|| CompareError::NoProfile { subject: source.into() })?;
-        let Summary { results, validity, case: name, model: label, .. } = summary;
+        let Summary { results, validity, case: name, model: label, scene, .. } = summary;
         let (kind, source, notes) = (Kind::Run, source.into(), Vec::new());
         let errors = profile.standard_errors();
-        Ok(Self { name, label, kind, source, notes, profile, errors, results, validity, solve_s: 0.0, work: 0.0 })
+        let stated = scene.map(|scene| Stated { scene, ..Stated::default() });
+        let (solve_s, work) = (0.0, 0.0);
+        Ok(Self { name, label, kind, source, notes, profile, errors, results, validity, solve_s, work, stated })
     }
 
     fn lacks(&self, quantity: &'static Quantity, needed_by: &'static str) -> CompareError {
@@ -233,6 +257,8 @@ pub struct Comparison {
     pub norms: Vec<NormRow>,
     /// numbers that two or more report, in the order of the catalogue
     pub numbers: Vec<NumberRow>,
+    /// inputs that are not the same in all
+    pub inputs: Vec<InputRow>,
 }
 
 /// Compares `subjects` with the first of them. Equal names are told apart by what the user typed, then by number.
@@ -253,6 +279,7 @@ pub fn compare(mut subjects: Vec<Subject>, align: Align, scaled: bool) -> Result
         .collect();
     let name = reference.name.clone();
     tell_apart(&mut subjects);
+    inputs::of_one_kind(&subjects)?;
     let views =
         subjects.iter().map(|s| View::of(s, align, scaled, &shared)).collect::<Result<Vec<_>, CompareError>>()?;
     let norms = all_norms(&views, &shared);
@@ -260,7 +287,8 @@ pub fn compare(mut subjects: Vec<Subject>, align: Align, scaled: bool) -> Result
     if norms.iter().all(|n| n.deviation.is_none()) && numbers.is_empty() {
         return Err(CompareError::NothingShared { reference: name });
     }
-    Ok(Comparison { align, scaled, subjects, views, norms, numbers })
+    let inputs = inputs::rows(&subjects);
+    Ok(Comparison { align, scaled, subjects, views, norms, numbers, inputs })
 }
 
 fn all_norms(views: &[View], shared: &[&'static Quantity]) -> Vec<NormRow> {

@@ -19,6 +19,7 @@ impl Comparison {
             self.subjects_section(),
             self.norms_section(),
             self.numbers_section(),
+            self.inputs_section(),
             Section::Warnings(self.warnings()),
             Section::Figures(figures),
             origin(cost, provenance),
@@ -38,6 +39,7 @@ impl Comparison {
             let (low, high) = (self.value(low, &quantity::Z), self.value(high, &quantity::Z));
             found.push(format!("The bed levels lie between {low} and {high}: --align bed puts them on each other."));
         }
+        found.extend(self.amounts());
         for row in self.norms.iter().filter(|n| n.deviation.is_none()) {
             let name = self.name(row.subject);
             found.push(format!("{} of {name} is defined at no elevation where the reference is.", row.quantity.title));
@@ -73,7 +75,8 @@ impl Comparison {
     }
 
     fn subjects_section(&self) -> Section<'static> {
-        let mut head: Vec<String> = ["name", "what it is", "source", "levels"].map(str::to_owned).to_vec();
+        let mut head: Vec<String> =
+            ["name", "what it is", "source", "levels", "solid volume per area"].map(str::to_owned).to_vec();
         let shifted = self.views.iter().any(|v| v.shift_m != 0.0);
         if shifted {
             head.push("moved down by".into());
@@ -93,6 +96,7 @@ impl Comparison {
                 Cell::Text(format!("{kind}: {}{notes}", subject.label)),
                 Cell::Text(subject.source.clone()),
                 number(subject.profile.rows().to_string(), subject.profile.rows() as f64),
+                subject.solid_volume().map_or(Cell::Empty("unknown"), |v| number(readable(v, "m"), v)),
             ];
             if shifted {
                 row.push(number(readable(view.shift_m, "m"), view.shift_m));

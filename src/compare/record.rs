@@ -43,6 +43,8 @@ impl Comparison {
                 "scales": view.scales,
                 "results": subject.results,
                 "validity": subject.validity,
+                "scene": subject.stated.as_ref().map(|stated| &stated.scene),
+                "solid_volume_m": subject.solid_volume(),
             })
         });
         let norms = self.norms.iter().map(|row| self.norm(row));
@@ -65,6 +67,7 @@ impl Comparison {
             "subjects": subjects.collect::<Vec<_>>(),
             "norms": norms.collect::<Vec<_>>(),
             "numbers": numbers.collect::<Vec<_>>(),
+            "inputs": self.inputs.iter().map(|row| json!({ "path": row.path, "values": row.values })).collect::<Vec<_>>(),
             "warnings": self.warnings(),
             "cost": cost,
             "provenance": provenance,

@@ -25,6 +25,7 @@ pub(super) fn bed(name: &str, level: f64) -> Subject {
         validity: Vec::new(),
         solve_s: 0.0,
         work: 0.0,
+        stated: None,
     }
 }
 

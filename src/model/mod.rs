@@ -19,6 +19,7 @@ use std::sync::Arc;
 use crate::case::{CaseFault, Tables};
 use crate::closures::Info;
 use crate::result::{CheckpointError, Context, Failure, Figure, Outcome};
+use crate::scene::Scene;
 
 pub use offer::{BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, PACKED, Term, TermTest, TurbulentScene};
 pub use problem::{Checked, Problem};
@@ -77,11 +78,17 @@ impl ModelInfo {
 pub trait Model: Solve + Sized {
     /// Its name.
     const INFO: ModelInfo;
+    /// The kind of flow that it solves: a scene of [`crate::scene`].
+    type Scene: Into<Scene>;
     /// The tables of its cases.
     type Tables: Tables;
 
-    /// Checks what no schema can, values against each other, and makes the problem. `None` where a fault leaves none.
-    fn build(tables: &Self::Tables, faults: &mut Faults) -> Option<Self>;
+    /// The flow that the tables of a case describe.
+    fn scene(tables: &Self::Tables) -> Self::Scene;
+
+    /// Checks what no schema can, values against each other, and makes the problem: the flow from the scene, how it is solved
+    /// from the tables. `None` where a fault leaves none.
+    fn build(scene: &Self::Scene, tables: &Self::Tables, faults: &mut Faults) -> Option<Self>;
 
     /// The case with which this model would answer `flow` to the relative error `tolerance`, if it can.
     fn offer(_flow: &Flow, _tolerance: f64) -> Option<Offer> {

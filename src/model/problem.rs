@@ -9,6 +9,7 @@ use crate::result::{
     Class, Context, Failure, Figure, Head, NumericalError, Outcome, Profile, StatedLaw, Statement, Status,
     quantity as q,
 };
+use crate::scene::Scene;
 
 /// Relative residual of a balance from which on a result has lost its digits: it is round-off otherwise.
 const LARGEST_IMBALANCE: f64 = 1e-3;
@@ -27,6 +28,8 @@ pub struct Problem {
     pub kind: &'static str,
     /// whether its results are means of fluctuating quantities
     pub stochastic: bool,
+    /// the flow, where a case states it
+    pub scene: Option<Scene>,
     solver: Arc<dyn Solve>,
 }
 
@@ -34,13 +37,21 @@ pub struct Problem {
 pub type Checked = (Case, Problem);
 
 impl Problem {
-    pub(super) fn new(case: &Case, stochastic: bool, solver: Arc<dyn Solve>) -> Self {
-        Self { name: case.name.clone(), title: case.about().title.clone(), kind: case.model, stochastic, solver }
+    pub(super) fn new(case: &Case, scene: Scene, stochastic: bool, solver: Arc<dyn Solve>) -> Self {
+        let (name, title) = (case.name.clone(), case.about().title.clone());
+        Self { name, title, kind: case.model, stochastic, scene: Some(scene), solver }
     }
 
     /// A problem that no case states.
     pub(super) fn of(name: &str, info: ModelInfo, solver: Arc<dyn Solve>) -> Self {
-        Self { name: name.into(), title: name.into(), kind: info.name, stochastic: info.stochastic, solver }
+        Self {
+            name: name.into(),
+            title: name.into(),
+            kind: info.name,
+            stochastic: info.stochastic,
+            scene: None,
+            solver,
+        }
     }
 
     /// Solves it and completes the outcome.
@@ -108,6 +119,7 @@ impl Problem {
             case: self.name.clone(),
             title: self.title.clone(),
             model: self.model_name(),
+            scene: self.scene.as_ref().map(Scene::record),
             source: case.source.clone(),
             overrides: case.overrides.clone(),
             resolved: case.resolved(),

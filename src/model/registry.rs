@@ -7,9 +7,10 @@ use serde_json::Value;
 use super::problem::checks;
 use super::{Checked, Faults, Flow, Model, ModelInfo, Offer, Problem, Solve};
 use crate::case::{Case, CaseError, Kind, Kinds, Tables};
+use crate::scene::Scene;
 
-/// A problem of some model, if its values allow one; or that the tables are none of the model's.
-type Built = Result<Option<Arc<dyn Solve>>, serde_json::Error>;
+/// The flow of a case and a problem of some model, if its values allow one; or that the tables are none of the model's.
+type Built = Result<(Scene, Option<Arc<dyn Solve>>), serde_json::Error>;
 
 /// A model without its types.
 #[derive(Clone, Copy, Debug)]
@@ -37,7 +38,9 @@ impl Entry {
 
 fn build<M: Model>(tables: Value, faults: &mut Faults) -> Built {
     let tables: M::Tables = serde_json::from_value(tables)?;
-    Ok(M::build(&tables, faults).map(|model| Arc::new(model) as Arc<dyn Solve>))
+    let scene = M::scene(&tables);
+    let model = M::build(&scene, &tables, faults).map(|model| Arc::new(model) as Arc<dyn Solve>);
+    Ok((scene.into(), model))
 }
 
 /// The models that a program knows.
@@ -99,14 +102,13 @@ impl Registry {
     fn problem(&self, case: &Case) -> Result<Problem, CaseError> {
         let mut faults = Faults::new();
         let entry = self.entries.iter().find(|entry| entry.info.name == case.model);
-        let solver = match entry.map(|entry| (entry.build)(case.tables().clone(), &mut faults)) {
-            Some(Ok(solver)) => solver,
-            // The tables were read once: neither can happen to a case that this registry read.
-            Some(Err(_)) | None => None,
-        };
+        // The tables were read once: that this fails cannot happen to a case that this registry read.
+        let built = entry.and_then(|entry| (entry.build)(case.tables().clone(), &mut faults).ok());
         checks(case, &mut faults);
-        match (solver, entry) {
-            (Some(solver), Some(entry)) if faults.is_empty() => Ok(Problem::new(case, entry.info.stochastic, solver)),
+        match (built, entry) {
+            (Some((scene, Some(solver))), Some(entry)) if faults.is_empty() => {
+                Ok(Problem::new(case, scene, entry.info.stochastic, solver))
+            }
             _ => Err(case.clone().refuse(faults.0)),
         }
     }
@@ -124,7 +126,7 @@ pub fn read<M: Model>(name: &str, overrides: &[String]) -> Result<M, CaseError> 
 fn from_case<M: Model>(case: &Case) -> Result<M, CaseError> {
     let mut faults = Faults::new();
     let tables: Option<M::Tables> = serde_json::from_value(case.tables().clone()).ok();
-    match tables.and_then(|tables| M::build(&tables, &mut faults)) {
+    match tables.and_then(|tables| M::build(&M::scene(&tables), &tables, &mut faults)) {
         Some(problem) if faults.is_empty() => Ok(problem),
         _ => Err(case.clone().refuse(faults.0)),
     }

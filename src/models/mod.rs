@@ -5,6 +5,7 @@ mod bed_fault;
 mod premises;
 #[cfg(test)]
 mod tests;
+mod touching;
 mod yielding;
 
 use crate::dem::GrainBed;
@@ -12,6 +13,7 @@ use crate::model::{Entry, OnMesh, Registry};
 
 pub use bed_error::BedError;
 pub use bed_fault::BedFault;
+use touching::{of_scene, touching};
 pub use yielding::{RegularisationSize, RegularisationTable, YieldGrid};
 
 /// The models of a program, from least to most: a line each, its folder and its types. `also` adds to a folder that is named

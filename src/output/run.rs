@@ -46,6 +46,7 @@ fn begin(head: &Head) -> Summary {
         status: Status::Running,
         case: head.case.clone(),
         model: head.model.clone(),
+        scene: head.scene.clone(),
         results: Results::default(),
         balances: Vec::new(),
         validity: Vec::new(),

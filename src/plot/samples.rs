@@ -16,6 +16,7 @@ fn summary(case: &str, model: &str, results: Results) -> Summary {
         status: Status::Done,
         case: case.into(),
         model: model.into(),
+        scene: None,
         results,
         balances: vec![Balance {
             name: "momentum".into(),

@@ -2,6 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::SceneRecord;
+
 /// The equations that are solved, and the laws in them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -37,6 +39,8 @@ pub struct Head {
     pub title: String,
     /// the model in words: `exact/ouriemi, two-fluid`
     pub model: String,
+    /// the flow, where a case states it
+    pub scene: Option<SceneRecord>,
     /// file or shipped case, as the user named it
     pub source: String,
     /// changes to it, as after `--set`

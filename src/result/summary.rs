@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use super::{Estimate, Provenance, Quantity};
+use super::{Estimate, Provenance, Quantity, SceneRecord};
 
 /// State of a run folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -192,6 +192,9 @@ pub struct Summary {
     pub case: String,
     /// model in words: `exact/ouriemi, two-fluid`
     pub model: String,
+    /// the flow: its inputs, its numbers
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scene: Option<SceneRecord>,
     /// named numbers
     pub results: Results,
     /// global balances

@@ -19,14 +19,15 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("case", &["units", "closures", "result"]),
     ("column", &["closures", "numerics"]),
     ("dem", &["closures", "numerics", "result", "runtime", "units"]),
-    ("model", &["case", "closures", "result"]),
-    ("models", &["case", "closures", "dem", "model", "models::exact", "result"]),
+    ("scene", &["case", "closures", "result"]),
+    ("model", &["case", "closures", "result", "scene"]),
+    ("models", &["case", "closures", "dem", "model", "models::exact", "result", "scene"]),
     ("plot", &["result", "units"]),
     ("compare", &["case", "plot", "result", "units"]),
     ("output", &["plot", "result", "units"]),
     ("study", &["case", "closures", "compare", "model", "numerics", "output", "plot", "result", "runtime", "units"]),
     ("advise", &["case", "model", "result", "units"]),
-    ("prelude", &["case", "model", "models", "result"]),
+    ("prelude", &["case", "model", "models", "result", "scene"]),
     ("validate", &["advise", "case", "model", "plot", "result", "study", "units"]),
     (
         "cli",
@@ -39,7 +40,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
 
 /// What any model may name; besides that, the models that [`BETWEEN_MODELS`] lists.
 const OF_A_MODEL: &[&str] =
-    &["case", "closures", "column", "dem", "model", "models", "numerics", "result", "runtime", "units"];
+    &["case", "closures", "column", "dem", "model", "models", "numerics", "result", "runtime", "scene", "units"];
 
 /// A model that takes something of another, and what.
 const BETWEEN_MODELS: &[(&str, &str, &str)] = &[

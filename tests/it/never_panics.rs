@@ -90,6 +90,7 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
         status: outcome.status,
         case: problem.name.clone(),
         model: problem.model_name(),
+        scene: None,
         results: outcome.results.clone(),
         balances: outcome.balances.clone(),
         validity: outcome.validity.clone(),

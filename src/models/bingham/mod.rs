@@ -14,6 +14,7 @@ use crate::models::exact::bingham::{BinghamPlane, PlaneFlow, plane};
 use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
+use crate::scene::ChannelScene;
 use crate::tables;
 
 /// The model: a Bingham fluid between two planes, solved numerically.
@@ -60,11 +61,16 @@ pub struct RegularisedPlane {
 
 impl Model for OnMesh<RegularisedPlane> {
     const INFO: ModelInfo = ModelInfo { name: "bingham", stochastic: false };
+    type Scene = ChannelScene;
     type Tables = BinghamTables;
 
-    fn build(tables: &BinghamTables, faults: &mut Faults) -> Option<Self> {
+    fn scene(tables: &BinghamTables) -> ChannelScene {
+        tables.flow.of(&tables.fluid)
+    }
+
+    fn build(scene: &ChannelScene, tables: &BinghamTables, faults: &mut Faults) -> Option<Self> {
         let size = size(&tables.regularisation, faults);
-        let plane = plane(&tables.fluid, &tables.flow)?;
+        let plane = plane(scene)?;
         let lambda = size?.to_scaled(plane.shear_scale());
         let regularisation = Regularisation { law: tables.regularisation.law, lambda };
         let problem = RegularisedPlane { plane, regularisation, yield_node: tables.grid.yield_node };

@@ -15,8 +15,10 @@ use crate::dem::{Bottom, GrainBed};
 use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
 use crate::models::BedFault;
 use crate::models::coupled::CoupledFault;
+use crate::models::{of_scene, touching};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Figure, Outcome};
+use crate::scene::{Bed, BedFlow, BedScene, Top};
 
 /// Grains in a fluid that flows over them. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,21 +105,38 @@ const MAX_GRAINS: f64 = 2e7;
 
 impl Model for Coupled {
     const INFO: ModelInfo = ModelInfo { name: "coupled", stochastic: true };
+    type Scene = BedScene;
     type Tables = CoupledTables;
 
-    fn build(tables: &CoupledTables, faults: &mut Faults) -> Option<Self> {
-        let CoupledTables { fluid, grains, bed, flow, closures, discrete, .. } = tables;
-        let slope = flow.slope_definition.angle(flow.slope);
-        let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
+    fn scene(tables: &CoupledTables) -> BedScene {
+        let CoupledTables { fluid, grains, flow, closures, .. } = tables;
+        BedScene {
+            fluid: *fluid,
+            grains: touching(grains, &closures.contact.0),
+            bed: Bed::default(),
+            flow: BedFlow {
+                depth: flow.depth,
+                width: flow.side_walls.then_some(flow.width),
+                slope: Some(flow.slope),
+                slope_definition: Some(flow.slope_definition),
+                ..BedFlow::new(flow.height.map_or(Top::FreeSurface, Top::OverFixedGrains), flow.gravity)
+            },
+        }
+    }
+
+    fn build(scene: &BedScene, tables: &CoupledTables, faults: &mut Faults) -> Option<Self> {
+        let (fluid, grains) = (&scene.fluid, &scene.grains);
+        let CoupledTables { bed, flow, closures, discrete, .. } = tables;
+        let beta = scene.flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok().flatten();
         let d = grains.diameter;
         if grains.density <= fluid.density {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
-        let surface = match (flow.height, flow.depth) {
-            (Some(height), None) => Some(Surface::Height(height)),
-            (None, Some(depth)) => Some(Surface::Depth(depth)),
-            (height, depth) => {
-                let given = [height.map(|_| "height"), depth.map(|_| "depth")];
+        let surface = match (scene.flow.top, scene.flow.depth) {
+            (Top::OverFixedGrains(height), None) => Some(Surface::Height(height)),
+            (Top::FreeSurface, Some(depth)) => Some(Surface::Depth(depth)),
+            (top, depth) => {
+                let given = [matches!(top, Top::OverFixedGrains(_)).then_some("height"), depth.map(|_| "depth")];
                 let given = given.into_iter().flatten().map(str::to_owned).collect();
                 faults.push(("flow", CoupledFault::Surfaces { given }));
                 None
@@ -149,7 +168,7 @@ impl Model for Coupled {
             };
             faults.push(("closures.side_wall.law", fault));
         }
-        let (Only(contact), Only(drag)) = (closures.contact, closures.drag);
+        let (contact, Only(drag)) = (of_scene(closures.contact.0, grains)?, closures.drag);
         let mobile = if (1.0..=MAX_GRAINS).contains(&count) { count.round() as usize } else { 1 };
         Some(Self {
             bed: GrainBed {
@@ -158,10 +177,10 @@ impl Model for Coupled {
                 mobile,
                 bottom: bed.bottom,
                 size: [flow.length, flow.width],
-                side_walls: flow.side_walls,
+                side_walls: scene.flow.width.is_some(),
                 smooth_walls: false,
                 beta: beta?,
-                g: flow.gravity,
+                g: scene.flow.gravity,
                 contact,
                 discrete: discrete.grains(),
             },

@@ -12,6 +12,7 @@ use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::models::BedFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
+use crate::scene::{self, GranularFlow, GranularScene};
 use crate::tables;
 
 /// A film of grains.
@@ -101,12 +102,22 @@ pub struct GranularFilm {
 
 impl Model for OnMesh<GranularFilm> {
     const INFO: ModelInfo = ModelInfo { name: "exact/bagnold-film", stochastic: false };
+    type Scene = GranularScene;
     type Tables = BagnoldFilmTables;
 
-    fn build(tables: &BagnoldFilmTables, faults: &mut Faults) -> Option<Self> {
-        let BagnoldFilmTables { grains, bed, flow, closures, grid, .. } = tables;
-        let slope = flow.slope_definition.angle(flow.slope);
-        let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
+    fn scene(tables: &BagnoldFilmTables) -> GranularScene {
+        let BagnoldFilmTables { grains, bed, flow, .. } = tables;
+        let FilmFlow { height, slope, slope_definition, gravity } = *flow;
+        GranularScene {
+            grains: scene::Grains::new(grains.diameter, grains.density),
+            bed: scene::Bed { thickness: Some(height), phi: Some(bed.phi) },
+            flow: GranularFlow { slope, slope_definition, gravity, width: None },
+        }
+    }
+
+    fn build(scene: &GranularScene, tables: &BagnoldFilmTables, faults: &mut Faults) -> Option<Self> {
+        let (GranularScene { grains, bed, flow }, BagnoldFilmTables { closures, grid, .. }) = (scene, tables);
+        let beta = flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let friction = closures.friction.0;
         if friction.mu_2 <= friction.mu_s {
             faults
@@ -115,8 +126,8 @@ impl Model for OnMesh<GranularFilm> {
         let problem = GranularFilm {
             rho_p: grains.density,
             d: grains.diameter,
-            phi: bed.phi,
-            h: flow.height,
+            phi: bed.phi?,
+            h: bed.thickness?,
             beta: beta?,
             g: flow.gravity,
             friction,

@@ -14,6 +14,7 @@ use crate::closures::role::{Only, choice};
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
 use crate::models::BedFault;
 use crate::models::exact::ExactFault;
+use crate::scene::{self, BedFlow, BedScene, Top};
 
 /// A flow between two planes over a bed. Exactly one drive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -223,28 +224,51 @@ impl LaminarBed {
     }
 }
 
-/// The tables of a laminar bed.
-pub(in crate::models) type Tables<'a> = (&'a Fluid, &'a Grains, &'a Bed, &'a LaminarFlow, BedLaws);
+/// A flow between two walls at a distance of `height` \[m] over a bed.
+pub(in crate::models) fn between_planes(
+    (fluid, grains, bed): (&Fluid, &Grains, &Bed),
+    height: f64,
+    gravity: f64,
+) -> BedScene {
+    BedScene {
+        fluid: *fluid,
+        grains: scene::Grains::new(grains.diameter, grains.density),
+        bed: scene::Bed { thickness: Some(bed.level), phi: Some(bed.phi) },
+        flow: BedFlow { depth: Some(height - bed.level), ..BedFlow::new(Top::Plane, gravity) },
+    }
+}
+
+impl LaminarFlow {
+    /// This flow over a bed.
+    pub(in crate::models) fn over(&self, matter: (&Fluid, &Grains, &Bed)) -> BedScene {
+        let mut scene = between_planes(matter, self.height, self.gravity);
+        (scene.flow.pressure_gradient, scene.flow.shields) = (self.pressure_gradient, self.shields);
+        scene
+    }
+}
 
 pub(in crate::models) fn laminar_bed(
-    tables: Tables<'_>,
+    scene: &BedScene,
+    laws: BedLaws,
     form: Form,
     model: &str,
     faults: &mut Faults,
 ) -> Option<LaminarBed> {
-    let (fluid, grains, bed, flow, laws) = tables;
-    if bed.level >= flow.height {
-        faults.push(("bed.level", BedFault::NoRoomForFlow { level: bed.level, height: flow.height }));
+    let BedScene { fluid, grains, bed, flow } = scene;
+    let (level, phi, depth) = (bed.thickness?, bed.phi?, flow.depth?);
+    let height = level + depth;
+    if depth <= 0.0 {
+        faults.push(("bed.level", BedFault::NoRoomForFlow { level, height }));
     }
-    if bed.level < grains.diameter {
-        faults.push(("bed.level", BedFault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
+    if level < grains.diameter {
+        faults.push(("bed.level", BedFault::ThinnerThanAGrain { level, diameter: grains.diameter }));
     }
     if grains.density <= fluid.density {
         faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
     }
     let phi_max = laws.viscosity.phi_max();
-    if bed.phi >= phi_max {
-        faults.push(("bed.phi", ExactFault::Jammed { phi: bed.phi, phi_max }));
+    if phi >= phi_max {
+        faults.push(("bed.phi", ExactFault::Jammed { phi, phi_max }));
     }
     if let Some(MuIv { mu_s, mu_2, .. }) = laws.rise
         && mu_2 <= mu_s
@@ -288,9 +312,9 @@ pub(in crate::models) fn laminar_bed(
         eta: fluid.viscosity,
         rho_p: grains.density,
         d: grains.diameter,
-        h_p: bed.level,
-        phi: bed.phi,
-        h: flow.height,
+        h_p: level,
+        phi,
+        h: height,
         g: flow.gravity,
         drive,
         friction: laws.friction,

@@ -9,6 +9,7 @@ use crate::case::tables::{BinghamFluid, Grid, one_of, only};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
+use crate::scene::{ChannelFlow, ChannelScene};
 use crate::tables;
 
 /// A flow between two planes. Exactly one drive.
@@ -97,22 +98,39 @@ impl BinghamPlane {
     }
 }
 
-/// The plane of these tables; `None` where they have no drive.
-pub(in crate::models) fn plane(fluid: &BinghamFluid, flow: &PlaneFlow) -> Option<BinghamPlane> {
+impl PlaneFlow {
+    /// This flow of a fluid.
+    pub(in crate::models) fn of(&self, fluid: &BinghamFluid) -> ChannelScene {
+        let (pressure_gradient, mean_velocity) = (self.pressure_gradient, self.mean_velocity);
+        ChannelScene {
+            fluid: fluid.into(),
+            flow: ChannelFlow { pressure_gradient, mean_velocity, ..ChannelFlow::new(self.height) },
+        }
+    }
+}
+
+/// The plane flow of a scene; `None` where it has no drive.
+pub(in crate::models) fn plane(scene: &ChannelScene) -> Option<BinghamPlane> {
+    let ChannelScene { fluid, flow } = scene;
     let drive = match (flow.pressure_gradient, flow.mean_velocity) {
         (Some(gradient), _) => BinghamDrive::PressureGradient(gradient),
         (None, Some(mean)) => BinghamDrive::MeanVelocity(mean),
         (None, None) => return None,
     };
-    Some(BinghamPlane { rho: fluid.density, eta: fluid.viscosity, tau_0: fluid.yield_stress, h: flow.height, drive })
+    Some(BinghamPlane { rho: fluid.density, eta: fluid.viscosity, tau_0: fluid.yield_stress, h: flow.depth, drive })
 }
 
 impl Model for OnMesh<BinghamPlane> {
     const INFO: ModelInfo = ModelInfo { name: "exact/bingham-plane", stochastic: false };
+    type Scene = ChannelScene;
     type Tables = BinghamPlaneTables;
 
-    fn build(tables: &BinghamPlaneTables, _: &mut Faults) -> Option<Self> {
-        let problem = plane(&tables.fluid, &tables.flow)?;
+    fn scene(tables: &BinghamPlaneTables) -> ChannelScene {
+        tables.flow.of(&tables.fluid)
+    }
+
+    fn build(scene: &ChannelScene, tables: &BinghamPlaneTables, _: &mut Faults) -> Option<Self> {
+        let problem = plane(scene)?;
         Some(Self { problem, cells: tables.grid.cells })
     }
 }

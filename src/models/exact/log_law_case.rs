@@ -13,6 +13,7 @@ use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, O
 use crate::models::exact::ExactFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
+use crate::scene::{ChannelFlow, ChannelScene};
 use crate::tables;
 use crate::units::significant;
 
@@ -90,20 +91,29 @@ pub struct RoughWall {
 
 impl Model for OnMesh<RoughWall> {
     const INFO: ModelInfo = ModelInfo { name: "exact/log-law", stochastic: false };
+    type Scene = ChannelScene;
     type Tables = LogLawTables;
 
-    fn build(tables: &LogLawTables, faults: &mut Faults) -> Option<Self> {
-        let LogLawTables { fluid, flow, closures, grid, .. } = tables;
+    fn scene(tables: &LogLawTables) -> ChannelScene {
+        let LogLawTables { fluid, flow, .. } = tables;
+        ChannelScene {
+            fluid: fluid.into(),
+            flow: ChannelFlow { u_star: Some(flow.u_star), ..ChannelFlow::new(flow.height) },
+        }
+    }
+
+    fn build(scene: &ChannelScene, tables: &LogLawTables, faults: &mut Faults) -> Option<Self> {
+        let (ChannelScene { fluid, flow }, LogLawTables { closures, grid, .. }) = (scene, tables);
         let (Only(mixing_length), Only(wall)) = (closures.mixing_length, closures.wall);
-        if wall.roughness_length() >= flow.height {
-            let fault = ExactFault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.height };
+        if wall.roughness_length() >= flow.depth {
+            let fault = ExactFault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.depth };
             faults.push(("closures.wall.k_s", fault));
         }
         let problem = RoughWall {
             rho_f: fluid.density,
             eta: fluid.viscosity,
-            h: flow.height,
-            u_star: flow.u_star,
+            h: flow.depth,
+            u_star: flow.u_star?,
             mixing_length,
             wall,
         };

@@ -1,15 +1,16 @@
 //! Problems of single grains.
 
-use super::case::{GrainsBedTables, ImpactTables, Target, VerificationCase as Which, VerificationTables};
+use super::case::{GrainFlow, GrainsBedTables, ImpactTables, Target, VerificationCase as Which, VerificationTables};
 use super::{bed, impact, verification};
 use crate::closures::contact::{LinearSpring, linear_spring};
-use crate::closures::role::Only;
 use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
 use crate::model::{Description, Faults, Model, ModelInfo, Solve};
 use crate::models::BedFault;
+use crate::models::{of_scene, touching};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Outcome};
+use crate::scene::{Bed, BenchmarkScene, GranularFlow, GranularScene};
 
 /// The impact of one sphere. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,13 +57,24 @@ const MAX_GRAINS: f64 = 2e7;
 
 impl Model for GrainBed {
     const INFO: ModelInfo = ModelInfo { name: "grains", stochastic: true };
+    type Scene = GranularScene;
     type Tables = GrainsBedTables;
 
-    fn build(tables: &GrainsBedTables, faults: &mut Faults) -> Option<Self> {
-        let GrainsBedTables { grains, bed, flow, closures, discrete, .. } = tables;
-        let slope = flow.slope_definition.angle(flow.slope);
-        let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
-        let d = grains.diameter;
+    fn scene(tables: &GrainsBedTables) -> GranularScene {
+        let GrainsBedTables { grains, flow, closures, .. } = tables;
+        let GrainFlow { slope, slope_definition, gravity, .. } = *flow;
+        let width = flow.side_walls.then_some(flow.width);
+        GranularScene {
+            grains: touching(grains, &closures.contact.0),
+            bed: Bed::default(),
+            flow: GranularFlow { slope, slope_definition, gravity, width },
+        }
+    }
+
+    fn build(scene: &GranularScene, tables: &GrainsBedTables, faults: &mut Faults) -> Option<Self> {
+        let GrainsBedTables { bed, flow, closures, discrete, .. } = tables;
+        let beta = scene.flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok();
+        let d = scene.grains.diameter;
         let count = bed.layers * (flow.length / d) * (flow.width / d);
         let wide = |name: &'static str, length: f64, least: f64, faults: &mut Faults| {
             if length < least * d {
@@ -76,17 +88,17 @@ impl Model for GrainBed {
             let name = "the number of mobile grains";
             faults.push(("bed.layers", BedFault::GrainRoom { name, value: count, least: 1.0, most: MAX_GRAINS }));
         }
-        let Only(contact) = closures.contact;
+        let contact = of_scene(closures.contact.0, &scene.grains)?;
         Some(Self {
             d,
-            rho_p: grains.density,
+            rho_p: scene.grains.density,
             mobile: if possible { count.round() as usize } else { 1 },
             bottom: bed.bottom,
             size: [flow.length, flow.width],
-            side_walls: flow.side_walls,
+            side_walls: scene.flow.width.is_some(),
             smooth_walls: flow.smooth_walls,
             beta: beta?,
-            g: flow.gravity,
+            g: scene.flow.gravity,
             contact,
             discrete: *discrete,
         })
@@ -114,13 +126,20 @@ impl Solve for GrainBed {
 
 impl Model for Impact {
     const INFO: ModelInfo = ModelInfo { name: "impact", stochastic: true };
+    type Scene = BenchmarkScene;
     type Tables = ImpactTables;
 
-    fn build(tables: &ImpactTables, _: &mut Faults) -> Option<Self> {
-        let Only(contact) = tables.closures.contact;
+    fn scene(tables: &ImpactTables) -> BenchmarkScene {
+        let grains = touching(&tables.grains, &tables.closures.contact.0);
+        BenchmarkScene { fluid: None, grains: Some(grains) }
+    }
+
+    fn build(scene: &BenchmarkScene, tables: &ImpactTables, _: &mut Faults) -> Option<Self> {
+        let grains = scene.grains?;
+        let contact = of_scene(tables.closures.contact.0, &grains)?;
         Some(Self {
-            d: tables.grains.diameter,
-            rho_p: tables.grains.density,
+            d: grains.diameter,
+            rho_p: grains.density,
             velocity: tables.flow.velocity,
             angle: tables.flow.angle,
             spin: tables.flow.spin,
@@ -148,14 +167,21 @@ impl Solve for Impact {
 
 impl Model for Verification {
     const INFO: ModelInfo = ModelInfo { name: "trial", stochastic: true };
+    type Scene = BenchmarkScene;
     type Tables = VerificationTables;
 
-    fn build(tables: &VerificationTables, _: &mut Faults) -> Option<Self> {
-        let Only(contact) = tables.closures.contact;
+    fn scene(tables: &VerificationTables) -> BenchmarkScene {
+        let grains = touching(&tables.grains, &tables.closures.contact.0);
+        BenchmarkScene { fluid: None, grains: Some(grains) }
+    }
+
+    fn build(scene: &BenchmarkScene, tables: &VerificationTables, _: &mut Faults) -> Option<Self> {
+        let grains = scene.grains?;
+        let contact = of_scene(tables.closures.contact.0, &grains)?;
         Some(Self {
             case: tables.model.trial,
-            d: tables.grains.diameter,
-            rho_p: tables.grains.density,
+            d: grains.diameter,
+            rho_p: grains.density,
             velocity: tables.flow.velocity,
             g: tables.flow.gravity,
             contact,

@@ -17,6 +17,7 @@ use crate::models::exact::bed::{BedDrag, BedLaws, Form, LaminarBed, LaminarFlow,
 use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
+use crate::scene::BedScene;
 use crate::tables;
 use crate::units::significant;
 
@@ -119,12 +120,17 @@ pub struct RegularisedBed {
 
 impl Model for OnMesh<RegularisedBed> {
     const INFO: ModelInfo = ModelInfo { name: "laminar", stochastic: false };
+    type Scene = BedScene;
     type Tables = LaminarTables;
 
-    fn build(tables: &LaminarTables, faults: &mut Faults) -> Option<Self> {
-        let LaminarTables { fluid, grains, bed, flow, closures, grid, .. } = tables;
-        let parts = (fluid, grains, bed, flow, closures.into());
-        let bed = laminar_bed(parts, tables.model.form, Self::INFO.name, faults);
+    fn scene(tables: &LaminarTables) -> BedScene {
+        let LaminarTables { fluid, grains, bed, flow, .. } = tables;
+        flow.over((fluid, grains, bed))
+    }
+
+    fn build(scene: &BedScene, tables: &LaminarTables, faults: &mut Faults) -> Option<Self> {
+        let LaminarTables { closures, grid, .. } = tables;
+        let bed = laminar_bed(scene, closures.into(), tables.model.form, Self::INFO.name, faults);
         let size = size(&tables.regularisation, faults);
         let bed = bed?;
         let lambda = size?.to_scaled(bed.velocity_scale() / bed.h);

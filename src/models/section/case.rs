@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::case::tables::{Bed, BinghamFluid, Fluid, Grains, only};
+use crate::case::tables::{Bed, BinghamFluid, Fluid, Grains, Shape, only};
 use crate::models::exact::bed::{BedClosures, Form};
 use crate::models::yielding::RegularisationTable;
 use crate::tables;
@@ -44,18 +44,6 @@ pub struct BedFlow {
     #[serde(default = "gravity")]
     #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     pub gravity: f64,
-}
-
-/// Outline of a cross-section.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Shape {
-    /// A rectangle, or a square.
-    Rectangle,
-    /// A circle.
-    Circle,
-    /// Two planes without side walls: the same elements give the plane flow.
-    Planes,
 }
 
 /// The model: a yield-stress fluid in the cross-section of a duct.

@@ -1,15 +1,16 @@
 //! A flow along a duct, in its cross-section.
 
-use super::case::{CavityTables, DuctBedTables, DuctTables, Method, SectionGrid, SectionSolver, Shape};
+use super::case::{CavityTables, DuctBedTables, DuctTables, Method, SectionGrid, SectionSolver};
 use super::{cavity_equations, equations, run, run_cavity, study};
+use crate::case::tables::Shape;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
-use crate::models::exact::bed::LaminarFlow;
-use crate::models::exact::bed::{LaminarBed, laminar_bed};
+use crate::models::exact::bed::{LaminarBed, between_planes, laminar_bed};
 use crate::models::section::SectionFault;
 use crate::models::yielding::size;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
+use crate::scene::{BedScene, BenchmarkScene, ChannelFlow, ChannelScene, Section};
 
 /// Outline of a section whose height is 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -138,10 +139,10 @@ fn whole(duct: &DuctFlow, faults: &mut Faults) {
 }
 
 /// The outline, in units of the height.
-fn outline(shape: Shape, width: Option<f64>, faults: &mut Faults) -> Option<Outline> {
+fn outline(section: Section, height: f64, faults: &mut Faults) -> Option<Outline> {
     /// Narrower or wider sections are lines.
     const WIDTHS: (f64, f64) = (0.05, 64.0);
-    match (shape, width) {
+    match (section.shape, section.width.map(|width| width / height)) {
         (Shape::Rectangle, None) => Some(Outline::Rectangle { width: 1.0 }),
         (Shape::Rectangle, Some(width)) if (WIDTHS.0..=WIDTHS.1).contains(&width) => Some(Outline::Rectangle { width }),
         (Shape::Rectangle, Some(width)) => {
@@ -187,18 +188,29 @@ pub struct DuctBed(pub OnMesh<DuctFlow>);
 
 impl Model for Duct {
     const INFO: ModelInfo = ModelInfo { name: "section/duct", stochastic: false };
+    type Scene = ChannelScene;
     type Tables = DuctTables;
 
-    fn build(tables: &DuctTables, faults: &mut Faults) -> Option<Self> {
+    fn scene(tables: &DuctTables) -> ChannelScene {
         let DuctTables { fluid, flow, .. } = tables;
-        let outline = outline(flow.shape, flow.width.map(|width| width / flow.height), faults);
+        let section = Some(Section { shape: flow.shape, width: flow.width });
+        let pressure_gradient = Some(flow.pressure_gradient);
+        ChannelScene {
+            fluid: fluid.into(),
+            flow: ChannelFlow { section, pressure_gradient, ..ChannelFlow::new(flow.height) },
+        }
+    }
+
+    fn build(scene: &ChannelScene, tables: &DuctTables, faults: &mut Faults) -> Option<Self> {
+        let ChannelScene { fluid, flow } = scene;
+        let outline = outline(flow.section?, flow.depth, faults);
         let solver = solver(tables.model.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
         let size = size(&tables.regularisation, faults);
         let contents = Contents::Bingham { rho: fluid.density, eta: fluid.viscosity, tau_0: fluid.yield_stress };
         let mut duct = DuctFlow {
             outline: outline?,
-            h: flow.height,
-            gradient: flow.pressure_gradient,
+            h: flow.depth,
+            gradient: flow.pressure_gradient?,
             contents,
             regularisation: Regularisation::EXACT,
             solver: solver?,
@@ -213,25 +225,27 @@ impl Model for Duct {
 
 impl Model for DuctBed {
     const INFO: ModelInfo = ModelInfo { name: "section/bed", stochastic: false };
+    type Scene = BedScene;
     type Tables = DuctBedTables;
 
-    fn build(tables: &DuctBedTables, faults: &mut Faults) -> Option<Self> {
-        let DuctBedTables { fluid, grains, bed, flow, closures, .. } = tables;
-        let drive = LaminarFlow {
-            height: flow.height,
-            pressure_gradient: Some(flow.pressure_gradient),
-            shields: None,
-            gravity: flow.gravity,
-        };
-        let parts = (fluid, grains, bed, &drive, closures.into());
-        let bed = laminar_bed(parts, tables.model.form, Self::INFO.name, faults);
-        let outline = outline(flow.shape, flow.width.map(|width| width / flow.height), faults);
+    fn scene(tables: &DuctBedTables) -> BedScene {
+        let DuctBedTables { fluid, grains, bed, flow, .. } = tables;
+        let mut scene = between_planes((fluid, grains, bed), flow.height, flow.gravity);
+        scene.flow.section = Some(Section { shape: flow.shape, width: flow.width });
+        scene.flow.pressure_gradient = Some(flow.pressure_gradient);
+        scene
+    }
+
+    fn build(scene: &BedScene, tables: &DuctBedTables, faults: &mut Faults) -> Option<Self> {
+        let height = scene.bed.thickness? + scene.flow.depth?;
+        let bed = laminar_bed(scene, (&tables.closures).into(), tables.model.form, Self::INFO.name, faults);
+        let outline = outline(scene.flow.section?, height, faults);
         let solver = solver(tables.model.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
         let size = size(&tables.regularisation, faults);
         let mut duct = DuctFlow {
             outline: outline?,
-            h: flow.height,
-            gradient: flow.pressure_gradient,
+            h: height,
+            gradient: scene.flow.pressure_gradient?,
             contents: Contents::Bed(bed?),
             regularisation: Regularisation::EXACT,
             solver: solver?,
@@ -316,10 +330,15 @@ impl Solve for OnMesh<DuctFlow> {
 
 impl Model for OnMesh<CavityFlow> {
     const INFO: ModelInfo = ModelInfo { name: "section/cavity", stochastic: false };
+    type Scene = BenchmarkScene;
     type Tables = CavityTables;
 
-    fn build(tables: &CavityTables, faults: &mut Faults) -> Option<Self> {
-        let CavityTables { fluid, flow, grid, .. } = tables;
+    fn scene(tables: &CavityTables) -> BenchmarkScene {
+        BenchmarkScene { fluid: Some((&tables.fluid).into()), grains: None }
+    }
+
+    fn build(scene: &BenchmarkScene, tables: &CavityTables, faults: &mut Faults) -> Option<Self> {
+        let (fluid, CavityTables { flow, grid, .. }) = (scene.fluid?, tables);
         let grid = SectionGrid { cells: grid.cells, yield_row: false, finest: grid.finest, along: None };
         let solver = solver(tables.model.method, tables.regularisation.law, &grid, &tables.solver, faults);
         let lambda = size(&tables.regularisation, faults)?.to_scaled(flow.lid_velocity / flow.height);

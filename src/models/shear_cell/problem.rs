@@ -9,6 +9,7 @@ use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPl
 use crate::models::BedFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
+use crate::scene::BenchmarkScene;
 
 /// Grains between two walls, without fluid or gravity. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,10 +36,15 @@ pub struct ShearCell {
 
 impl Model for OnMesh<ShearCell> {
     const INFO: ModelInfo = ModelInfo { name: "shear-cell", stochastic: false };
+    type Scene = BenchmarkScene;
     type Tables = ShearCellTables;
 
-    fn build(tables: &ShearCellTables, faults: &mut Faults) -> Option<Self> {
-        let ShearCellTables { grains, flow, closures, .. } = tables;
+    fn scene(tables: &ShearCellTables) -> BenchmarkScene {
+        BenchmarkScene { fluid: None, grains: Some((&tables.grains).into()) }
+    }
+
+    fn build(scene: &BenchmarkScene, tables: &ShearCellTables, faults: &mut Faults) -> Option<Self> {
+        let (grains, ShearCellTables { flow, closures, .. }) = (scene.grains?, tables);
         if flow.phi >= flow.phi_max {
             let allowed = format!("less than flow.phi_max = {}", flow.phi_max);
             faults.push(("flow.phi", Fault::OutOfRange { name: "phi".into(), value: flow.phi, allowed }));
@@ -47,7 +53,7 @@ impl Model for OnMesh<ShearCell> {
             let fault = BedFault::ThinnerThanAGrain { level: flow.height, diameter: grains.diameter };
             faults.push(("flow.height", fault));
         }
-        let (e, mu_p) = (grains.restitution, grains.friction);
+        let (e, mu_p) = (grains.restitution?, grains.friction?);
         let (granular, kinetic) = match closures.granular {
             Colliding::GarzoDufty(law) => (Granular::GarzoDufty(law), law.kinetic(e, mu_p)),
             Colliding::FrictionalCollisional(law) => (Granular::FrictionalCollisional(law), law.kinetic(e, mu_p)),

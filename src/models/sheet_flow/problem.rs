@@ -3,7 +3,6 @@
 use super::case::{BedReading, SheetFlowTables, SheetMethod, SheetSmoothing};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
-use crate::case::tables::SlopeDefinition;
 use crate::closures::Info;
 use crate::closures::dilatancy::{self, PhiI};
 use crate::closures::drag::{self, Dallavalle};
@@ -23,6 +22,7 @@ use crate::models::{BedFault, RegularisationSize};
 use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
+use crate::scene::{Bed, BedFlow, BedScene, Grains, Top};
 use crate::units::significant;
 
 /// How the pseudo-time iteration steps, and when it ends.
@@ -108,15 +108,46 @@ const DRIVES: [&str; 3] = ["shields", "u_star", "slope"];
 
 impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
     const INFO: ModelInfo = ModelInfo { name: "sheet-flow", stochastic: false };
+    type Scene = BedScene;
     type Tables = SheetFlowTables<F>;
 
-    fn build(tables: &SheetFlowTables<F>, faults: &mut Faults) -> Option<Self> {
-        let SheetFlowTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
-        if bed.level >= flow.height {
-            faults.push(("bed.level", BedFault::NoRoomForFlow { level: bed.level, height: flow.height }));
+    fn scene(tables: &SheetFlowTables<F>) -> BedScene {
+        let SheetFlowTables { fluid, grains, bed, flow, closures, .. } = tables;
+        let top = match closures.lid {
+            Lid::FreeSurface => Top::FreeSurface,
+            lid => Top::Lid(lid),
+        };
+        let settling_velocity = match closures.suspension {
+            Suspension::Rouse(law) => Some(law.settling_velocity),
+            Suspension::None => None,
+        };
+        // The interface in the flow holds an amount of grains that is a result.
+        let phi = (bed.reading == BedReading::Initial).then_some(closures.dilatancy.0.phi_max);
+        BedScene {
+            fluid: *fluid,
+            grains: Grains { settling_velocity, ..Grains::new(grains.diameter, grains.density) },
+            bed: Bed { thickness: Some(bed.level), phi },
+            flow: BedFlow {
+                depth: Some(flow.height - bed.level),
+                shields: flow.shields,
+                u_star: flow.u_star,
+                slope: flow.slope,
+                slope_definition: flow.slope.map(|_| flow.slope_definition),
+                ..BedFlow::new(top, flow.gravity)
+            },
         }
-        if bed.level < grains.diameter {
-            faults.push(("bed.level", BedFault::ThinnerThanAGrain { level: bed.level, diameter: grains.diameter }));
+    }
+
+    fn build(scene: &BedScene, tables: &SheetFlowTables<F>, faults: &mut Faults) -> Option<Self> {
+        let BedScene { fluid, grains, flow, .. } = scene;
+        let SheetFlowTables { closures, regularisation, solver, .. } = tables;
+        let (level, depth) = scene.bed.thickness.zip(flow.depth)?;
+        let height = level + depth;
+        if depth <= 0.0 {
+            faults.push(("bed.level", BedFault::NoRoomForFlow { level, height }));
+        }
+        if level < grains.diameter {
+            faults.push(("bed.level", BedFault::ThinnerThanAGrain { level, diameter: grains.diameter }));
         }
         if grains.density <= fluid.density {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
@@ -133,7 +164,11 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             .zip(DRIVES)
             .filter_map(|(given, name)| given.map(|_| name.to_owned()))
             .collect();
-        let solved = closures.lid == Lid::Solved;
+        let lid = match flow.top {
+            Top::Lid(lid) => lid,
+            _ => Lid::FreeSurface,
+        };
+        let solved = lid == Lid::Solved;
         let complete = if solved { flow.slope.is_some() && drives.len() == 2 } else { drives.len() == 1 };
         if !complete {
             let allowed = if solved {
@@ -143,7 +178,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             };
             faults.push(("flow", Fault::Drives { given: drives, allowed }));
         }
-        let sine = flow.slope.map(|slope| slope_sine(slope, flow.slope_definition, faults));
+        let sine = flow.sine().map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let (mu_s, mu_2) = (friction.least(), friction.most());
         if mu_2 <= mu_s {
             faults.push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s, mu_2 }));
@@ -167,23 +202,23 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
         if tables.model.method == SheetMethod::Iteration && lambda == Some(0.0) {
             faults.push(("model.method", SheetFlowFault::IterationNeedsCreep));
         }
-        let (lambda, sine) = (lambda?, sine.map_or(Some(None), |sine| sine.map(Some))?);
+        let (lambda, sine) = (lambda?, sine?);
         let problem = SheetFlow {
             rho_f: fluid.density,
             eta: fluid.viscosity,
             rho_p: grains.density,
             d: grains.diameter,
             g: flow.gravity,
-            height: flow.height,
-            level: bed.level,
-            reading: bed.reading,
+            height,
+            level,
+            reading: tables.bed.reading,
             tau_b: match (flow.shields, flow.u_star) {
                 (Some(shields), _) => Some(shields * (grains.density - fluid.density) * flow.gravity * grains.diameter),
                 (None, Some(u_star)) => Some(fluid.density * u_star * u_star),
                 (None, None) => None,
             },
             sine,
-            lid: closures.lid,
+            lid,
             friction,
             dilatancy,
             rearrangement: closures.rearrangement,
@@ -304,12 +339,6 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
         terms.push(solve("largest of three rearrangement times", change, left));
         terms
     }
-}
-
-/// Sine of a slope below the vertical.
-fn slope_sine(slope: f64, definition: SlopeDefinition, faults: &mut Faults) -> Option<f64> {
-    let angle = definition.angle(slope).map_err(|fault| faults.push(("flow.slope", fault))).ok()?;
-    Some(if definition == SlopeDefinition::Sine { slope } else { angle.sin() })
 }
 
 fn laws<F: FrictionLaw>(flow: &SheetFlow<F>) -> Vec<&'static Info> {

@@ -3,14 +3,14 @@
 use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Serialize};
 
-use crate::case::tables::Fluid;
-use crate::case::tables::{SlopeDefinition, one_of};
+use crate::case::tables::{Fluid, Oscillation, SlopeDefinition, one_of};
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::kinetic::radial::PHI_MAX;
 use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
 use crate::closures::mixing_length::MixingLength;
 use crate::closures::role::Only;
+use crate::scene::Grains;
 use crate::tables;
 
 /// Grains that collide.
@@ -28,6 +28,13 @@ pub struct CollidingGrains {
     /// Friction coefficient between two grains.
     #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
     pub friction: f64,
+}
+
+impl From<&CollidingGrains> for Grains {
+    fn from(grains: &CollidingGrains) -> Self {
+        let CollidingGrains { diameter, density, restitution, friction } = *grains;
+        Self { restitution: Some(restitution), friction: Some(friction), ..Self::new(diameter, density) }
+    }
 }
 
 /// The grains at rest, before they flow.
@@ -73,17 +80,6 @@ pub struct TwoFluidFlow {
     /// Waves: a pressure gradient that goes to and fro, besides the slope; only for a flow in time.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub oscillation: Option<Oscillation>,
-}
-
-/// A pressure gradient that goes to and fro, of the fluid and the grains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Oscillation {
-    /// Amplitude G of the fall of pressure along the flow: -dp/dx = G cos(2 pi t/period).
-    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
-    pub amplitude: f64,
-    /// Period.
-    #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
-    pub period: f64,
 }
 
 fn gravity() -> f64 {

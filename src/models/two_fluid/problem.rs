@@ -1,8 +1,9 @@
 //! Problems of grains and fluid as two fluids.
 
-use super::case::{FluidStress, Oscillation, State, TwoFluidTables};
+use super::case::{FluidStress, State, TwoFluidBed, TwoFluidFlow, TwoFluidTables};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
+use crate::case::tables::Oscillation;
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::kinetic::{Elastic, Granular, Moving, StaticFriction, Stresses};
@@ -16,6 +17,7 @@ use crate::models::BedFault;
 use crate::models::two_fluid::TwoFluidFault;
 use crate::result::Context;
 use crate::result::{Failure, Figure, Outcome};
+use crate::scene::{Bed, BedFlow, BedScene, Top};
 use crate::units::significant;
 
 /// How a flow is followed in time.
@@ -108,26 +110,46 @@ impl TwoFluid {
 
 impl Model for OnMesh<TwoFluid> {
     const INFO: ModelInfo = ModelInfo { name: "two-fluid", stochastic: false };
+    type Scene = BedScene;
     type Tables = TwoFluidTables;
 
-    fn build(tables: &TwoFluidTables, faults: &mut Faults) -> Option<Self> {
-        let TwoFluidTables { fluid, grains, bed, flow, closures, regularisation, solver, .. } = tables;
-        let slope = flow.slope_definition.angle(flow.slope);
-        let beta = slope.map_err(|fault| faults.push(("flow.slope", fault))).ok();
+    fn scene(tables: &TwoFluidTables) -> BedScene {
+        let TwoFluidTables { fluid, grains, bed, flow, .. } = tables;
+        let TwoFluidFlow { depth, shields, slope, slope_definition, gravity, oscillation } = *flow;
+        BedScene {
+            fluid: *fluid,
+            grains: grains.into(),
+            bed: Bed { thickness: Some(bed.thickness), phi: Some(bed.phi) },
+            flow: BedFlow {
+                depth,
+                shields,
+                slope: Some(slope),
+                slope_definition: Some(slope_definition),
+                oscillation,
+                ..BedFlow::new(Top::FreeSurface, gravity)
+            },
+        }
+    }
+
+    fn build(scene: &BedScene, tables: &TwoFluidTables, faults: &mut Faults) -> Option<Self> {
+        let BedScene { fluid, grains, flow, bed: Bed { thickness, phi } } = scene;
+        let TwoFluidTables { closures, regularisation, solver, bed: TwoFluidBed { phi_max, .. }, .. } = tables;
+        let (thickness, phi, phi_max, slope) = ((*thickness)?, (*phi)?, *phi_max, flow.slope?);
+        let beta = flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok().flatten();
         if grains.density <= fluid.density {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
-        if bed.thickness < grains.diameter {
-            let fault = BedFault::ThinnerThanAGrain { level: bed.thickness, diameter: grains.diameter };
+        if thickness < grains.diameter {
+            let fault = BedFault::ThinnerThanAGrain { level: thickness, diameter: grains.diameter };
             faults.push(("bed.thickness", fault));
         }
-        if bed.phi >= bed.phi_max {
-            faults.push(("bed.phi", below("phi", bed.phi, bed.phi_max)));
+        if phi >= phi_max {
+            faults.push(("bed.phi", below("phi", phi, phi_max)));
         }
         if let Elastic::JohnsonJackson(law) = closures.elastic
-            && law.phi_rlp >= bed.phi_max
+            && law.phi_rlp >= phi_max
         {
-            faults.push(("closures.elastic.phi_rlp", below("phi_rlp", law.phi_rlp, bed.phi_max)));
+            faults.push(("closures.elastic.phi_rlp", below("phi_rlp", law.phi_rlp, phi_max)));
         }
         if let Granular::Inertial(law) = closures.granular
             && law.mu_2 <= law.mu_s
@@ -147,12 +169,12 @@ impl Model for OnMesh<TwoFluid> {
         }
         let depth = match (flow.depth, flow.shields) {
             (Some(depth), None) => Some(depth),
-            (None, Some(shields)) if flow.slope > 0.0 => {
+            (None, Some(shields)) if slope > 0.0 => {
                 beta.map(|beta| shields * (grains.density / fluid.density - 1.0) * grains.diameter / beta.sin())
             }
             (None, Some(_)) => {
                 let allowed = "more than 0 where a Shields number is wanted".to_owned();
-                faults.push(("flow.slope", Fault::OutOfRange { name: "slope".into(), value: flow.slope, allowed }));
+                faults.push(("flow.slope", Fault::OutOfRange { name: "slope".into(), value: slope, allowed }));
                 None
             }
             (depth, shields) => {
@@ -171,11 +193,11 @@ impl Model for OnMesh<TwoFluid> {
             eta: fluid.viscosity,
             rho_p: grains.density,
             d: grains.diameter,
-            e: grains.restitution,
-            mu_p: grains.friction,
-            thickness: bed.thickness,
-            phi: bed.phi,
-            phi_max: bed.phi_max,
+            e: grains.restitution?,
+            mu_p: grains.friction?,
+            thickness,
+            phi,
+            phi_max,
             depth: depth?,
             beta: beta?,
             g: flow.gravity,

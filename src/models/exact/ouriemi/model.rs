@@ -10,6 +10,7 @@ use crate::models::exact::ExactKind;
 use crate::models::exact::bed::{BedClosures, Form, LaminarBed, LaminarFlow, laminar_bed};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
+use crate::scene::BedScene;
 use crate::tables;
 
 /// The model: Ouriemi's bed in closed form.
@@ -52,12 +53,17 @@ tables! {
 
 impl Model for OnMesh<LaminarBed> {
     const INFO: ModelInfo = ModelInfo { name: "exact/ouriemi", stochastic: false };
+    type Scene = BedScene;
     type Tables = OuriemiTables;
 
-    fn build(tables: &OuriemiTables, faults: &mut Faults) -> Option<Self> {
-        let OuriemiTables { fluid, grains, bed, flow, closures, grid, .. } = tables;
-        let parts = (fluid, grains, bed, flow, closures.into());
-        let problem = laminar_bed(parts, tables.model.form, Self::INFO.name, faults)?;
+    fn scene(tables: &OuriemiTables) -> BedScene {
+        let OuriemiTables { fluid, grains, bed, flow, .. } = tables;
+        flow.over((fluid, grains, bed))
+    }
+
+    fn build(scene: &BedScene, tables: &OuriemiTables, faults: &mut Faults) -> Option<Self> {
+        let OuriemiTables { closures, grid, .. } = tables;
+        let problem = laminar_bed(scene, closures.into(), tables.model.form, Self::INFO.name, faults)?;
         Some(Self { problem, cells: grid.cells })
     }
 

@@ -1,0 +1,229 @@
+//! A flow over a bed of grains, and the numbers that it fixes.
+//!
+//! | symbol | meaning | unit |
+//! |---|---|---|
+//! | `theta` | Shields number of the drive, `tau/((rho_p - rho_f) g d)` | 1 |
+//! | `u_*` | its friction velocity, `sqrt(tau/rho_f)` | m/s |
+//! | `w_s` | settling velocity, given or of a sphere | m/s |
+//! | `s` | `rho_p/rho_f` | 1 |
+
+use serde::Serialize;
+
+use super::{Given, Grains, SceneNumber};
+use crate::case::Fault;
+use crate::case::tables::{Fluid, Oscillation, Shape, SlopeDefinition};
+use crate::closures::drag::DallavalleGrain;
+use crate::closures::lid::Lid;
+
+/// Von Karman's constant, in the Rouse number.
+const KAPPA: f64 = 0.41;
+
+/// A flow over a bed of grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BedScene {
+    /// the fluid
+    pub fluid: Fluid,
+    /// the grains
+    pub grains: Grains,
+    /// the bed at rest
+    pub bed: Bed,
+    /// the flow over it
+    pub flow: BedFlow,
+}
+
+/// A packed bed at rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Bed {
+    /// thickness \[m]; `None` where grains are counted instead
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
+    /// solid fraction; `None` where it is a result
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub phi: Option<f64>,
+}
+
+impl Bed {
+    /// Solid volume per area \[m].
+    #[must_use]
+    pub fn solid_volume(&self) -> Option<f64> {
+        Some(self.thickness? * self.phi?)
+    }
+}
+
+/// The clear fluid over a bed, and what drives it. Which of the drives are given is checked by the model.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct BedFlow {
+    /// depth of the clear fluid over the bed \[m]; `None` where it follows from the drive or from the top
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depth: Option<f64>,
+    /// what bounds the flow above
+    pub top: Top,
+    /// distance of side walls \[m]; `None`: as wide as no wall matters
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// cross-section of a closed duct
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub section: Option<Section>,
+    /// slope, as its definition says
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slope: Option<f64>,
+    /// what the number given as slope is
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slope_definition: Option<SlopeDefinition>,
+    /// Shields number
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shields: Option<f64>,
+    /// friction velocity [m/s]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub u_star: Option<f64>,
+    /// fall of pressure along the flow, -dp/dx [Pa/m]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pressure_gradient: Option<f64>,
+    /// gravity [m/s2]
+    pub gravity: f64,
+    /// a pressure gradient that goes to and fro, besides
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub oscillation: Option<Oscillation>,
+}
+
+impl BedFlow {
+    /// A flow under `top` with nothing that drives it.
+    #[must_use]
+    pub fn new(top: Top, gravity: f64) -> Self {
+        Self {
+            depth: None,
+            top,
+            width: None,
+            section: None,
+            slope: None,
+            slope_definition: None,
+            shields: None,
+            u_star: None,
+            pressure_gradient: None,
+            gravity,
+            oscillation: None,
+        }
+    }
+
+    /// Angle with the horizontal \[rad] of the slope, if there is one.
+    ///
+    /// # Errors
+    /// [`Fault::TooSteep`].
+    pub fn angle(&self) -> Result<Option<f64>, Fault> {
+        self.slope.zip(self.slope_definition).map(|(slope, definition)| definition.angle(slope)).transpose()
+    }
+
+    /// Sine of the slope, if there is one: the number itself where it was given as such.
+    ///
+    /// # Errors
+    /// [`Fault::TooSteep`].
+    pub fn sine(&self) -> Result<Option<f64>, Fault> {
+        let angle = self.angle()?;
+        Ok(match (self.slope, self.slope_definition) {
+            (Some(slope), Some(SlopeDefinition::Sine)) => Some(slope),
+            _ => angle.map(f64::sin),
+        })
+    }
+}
+
+/// What bounds a flow above.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Top {
+    /// a free surface
+    FreeSurface,
+    /// a plane on which the fluid does not slip
+    Plane,
+    /// the lid of a duct, and the stress that it takes from a turbulent flow
+    Lid(Lid),
+    /// a free surface at this height over the mean centre of the fixed grains \[m]: the depth is known after the deposit
+    OverFixedGrains(f64),
+}
+
+/// Cross-section of a closed duct; its height is that of bed and flow.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Section {
+    /// outline
+    pub shape: Shape,
+    /// width of a rectangle \[m]; `None`: a square
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+}
+
+impl BedScene {
+    /// Stress scale (rho_p - rho_f) g d \[Pa].
+    #[must_use]
+    pub fn stress_scale(&self) -> f64 {
+        (self.grains.density - self.fluid.density) * self.flow.gravity * self.grains.diameter
+    }
+
+    /// Kinematic viscosity of the fluid [m2/s].
+    #[must_use]
+    pub fn nu(&self) -> f64 {
+        self.fluid.viscosity / self.fluid.density
+    }
+
+    /// Shields number of the drive, in closed form: as wanted, or the weight of the fluid along the slope. `None` where the
+    /// stress on the bed is an outcome.
+    #[must_use]
+    pub fn shields_drive(&self) -> Option<f64> {
+        let flow = &self.flow;
+        let weight = || {
+            let (depth, sine) = (flow.depth?, flow.sine().ok()??);
+            (flow.top == Top::FreeSurface)
+                .then(|| self.fluid.density * flow.gravity * depth * sine / self.stress_scale())
+        };
+        let of_u_star = || Some(self.fluid.density * flow.u_star?.powi(2) / self.stress_scale());
+        flow.shields.or_else(of_u_star).or_else(weight)
+    }
+
+    /// Friction velocity of the drive [m/s].
+    #[must_use]
+    pub fn u_star_drive(&self) -> Option<f64> {
+        Some((self.shields_drive()? * self.stress_scale() / self.fluid.density).sqrt())
+    }
+
+    /// Settling velocity [m/s]: given, or that of a sphere alone with the drag `0.4 + 24.4/Re`.
+    #[must_use]
+    pub fn settling_velocity(&self) -> Given {
+        let Grains { diameter, density, settling_velocity, .. } = self.grains;
+        let buoyant = (density / self.fluid.density - 1.0) * self.flow.gravity;
+        let sphere = || DallavalleGrain::default().settling_velocity(buoyant, self.nu(), diameter);
+        settling_velocity.map_or_else(|| Given::Derived(sphere()), Given::Given)
+    }
+
+    pub(super) fn numbers(&self) -> Vec<SceneNumber> {
+        let (d, nu, eta) = (self.grains.diameter, self.nu(), self.fluid.viscosity);
+        let s = self.grains.density / self.fluid.density;
+        let w_s = self.settling_velocity().value();
+        let mut numbers = vec![
+            SceneNumber::new("density_ratio", s, "ρ_p/ρ_f"),
+            SceneNumber::new(
+                "galileo",
+                ((s - 1.0) * self.flow.gravity * d * d * d).sqrt() / nu,
+                "((ρ_p/ρ_f - 1) g d³)^(1/2)/ν",
+            ),
+            SceneNumber::new(
+                "settling_velocity_m_s",
+                w_s,
+                "w_s: given, or of a sphere alone with C_D = 0.4 + 24.4 ν/(w_s d)",
+            ),
+        ];
+        numbers.extend(self.flow.depth.map(|depth| SceneNumber::new("submergence", depth / d, "depth over d")));
+        let Some((theta, u_star)) = self.shields_drive().zip(self.u_star_drive()) else { return numbers };
+        numbers.extend([
+            SceneNumber::new("shields_drive", theta, "τ/((ρ_p - ρ_f) g d) of the drive alone, no side walls"),
+            SceneNumber::new("u_star_drive_m_s", u_star, "u_* = (τ/ρ_f)^(1/2) of the drive alone"),
+            SceneNumber::new("reynolds_grain", u_star * d / nu, "u_* d/ν"),
+            SceneNumber::new("suspension", w_s / u_star, "w_s/u_*: the turbulence carries grains below 1"),
+            SceneNumber::new("rouse", w_s / (KAPPA * u_star), "w_s/(0.41 u_*)"),
+            SceneNumber::new(
+                "stokes",
+                self.grains.density * u_star * d / (9.0 * eta),
+                "ρ_p u_* d/(9 η): collisions at u_*",
+            ),
+            SceneNumber::new("bagnold", self.grains.density * u_star * d / eta, "ρ_p d² (u_*/d)/η"),
+        ]);
+        numbers
+    }
+}

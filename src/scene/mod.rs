@@ -1,0 +1,130 @@
+//! The physical flow, whatever solves it: fluid, grains, bed at rest, the flow over it and what drives it. Values in SI.
+//!
+//! A scene says nothing of how it is solved. Its kinds keep what does not belong together apart:
+//!
+//! | kind | flow | models |
+//! |---|---|---|
+//! | [`BedScene`] | over a bed of grains | laminar and its closed form, sections over a bed, sheet flow, two fluids, grains in a fluid |
+//! | [`ChannelScene`] | without grains | Bingham plane, duct, log law |
+//! | [`GranularScene`] | of grains without a fluid that drives them | film, chute, bed at rest |
+//! | [`BenchmarkScene`] | whose geometry is a matter of the model | cavity, shear cell, impact, verification cases |
+//!
+//! What follows from a scene stands here once: its numbers ([`Scene::numbers`]), its amount of grains, and in what two scenes
+//! differ ([`SceneRecord::differences`]).
+
+mod bed;
+mod channel;
+mod granular;
+mod number;
+
+pub use bed::{Bed, BedFlow, BedScene, Section, Top};
+pub use channel::{BenchmarkScene, ChannelFlow, ChannelScene, Material};
+pub use granular::{GranularFlow, GranularScene};
+pub use number::{Given, SceneNumber};
+
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use crate::result::{SceneRecord, flatten};
+
+/// The grains of a scene.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Grains {
+    /// diameter \[m]
+    pub diameter: f64,
+    /// density [kg/m3]
+    pub density: f64,
+    /// restitution coefficient of two grains
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub restitution: Option<f64>,
+    /// friction coefficient between two grains
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<f64>,
+    /// settling velocity [m/s], where it is given
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settling_velocity: Option<f64>,
+}
+
+impl Grains {
+    /// Grains of which nothing but this is known.
+    #[must_use]
+    pub fn new(diameter: f64, density: f64) -> Self {
+        Self { diameter, density, restitution: None, friction: None, settling_velocity: None }
+    }
+}
+
+/// The physical flow.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "scene", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Scene {
+    /// over a bed of grains
+    Bed(BedScene),
+    /// without grains
+    Channel(ChannelScene),
+    /// of grains without a fluid that drives them
+    Granular(GranularScene),
+    /// whose geometry is a matter of the model
+    Benchmark(BenchmarkScene),
+}
+
+macro_rules! kinds {
+    ($($kind:ident($scene:ident)),*) => {
+        $(impl From<$scene> for Scene {
+            fn from(scene: $scene) -> Self {
+                Self::$kind(scene)
+            }
+        })*
+    };
+}
+
+kinds!(Bed(BedScene), Channel(ChannelScene), Granular(GranularScene), Benchmark(BenchmarkScene));
+
+impl Scene {
+    /// `bed`, `channel`, `granular` or `benchmark`.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Bed(_) => "bed",
+            Self::Channel(_) => "channel",
+            Self::Granular(_) => "granular",
+            Self::Benchmark(_) => "benchmark",
+        }
+    }
+
+    /// Its numbers, as far as the scene alone fixes them.
+    #[must_use]
+    pub fn numbers(&self) -> Vec<SceneNumber> {
+        let numbers = match self {
+            Self::Bed(bed) => bed.numbers(),
+            Self::Channel(channel) => channel.numbers(),
+            Self::Granular(granular) => granular.numbers(),
+            Self::Benchmark(_) => Vec::new(),
+        };
+        numbers.into_iter().filter(|number| number.value.is_finite()).collect()
+    }
+
+    /// Solid volume of the bed at rest per area \[m], without pores; `None` where the scene does not say.
+    #[must_use]
+    pub fn solid_volume(&self) -> Option<f64> {
+        match self {
+            Self::Bed(BedScene { bed, .. }) | Self::Granular(GranularScene { bed, .. }) => bed.solid_volume(),
+            Self::Channel(_) | Self::Benchmark(_) => None,
+        }
+    }
+
+    /// The scene as `summary.json` keeps it.
+    #[must_use]
+    pub fn record(&self) -> SceneRecord {
+        let mut inputs = Map::new();
+        if let Ok(Value::Object(tables)) = serde_json::to_value(self) {
+            flatten("", &Value::Object(tables), &mut inputs);
+        }
+        inputs.shift_remove("scene");
+        let numbers = self.numbers().into_iter().map(|number| (number.name.to_owned(), number.value.into())).collect();
+        SceneRecord { kind: self.kind().to_owned(), inputs, numbers, solid_volume_m: self.solid_volume() }
+    }
+}
+
+#[cfg(test)]
+mod tests;
