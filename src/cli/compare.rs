@@ -9,7 +9,9 @@ use serde_json::{Value, json};
 use super::progress::Progress;
 use super::{CliError, Verb, answer, say, word};
 use crate::case::Case;
-use crate::compare::{Align, CompareError, Comparison, NormRow, Request, Stated, Subject, compare, data, percent};
+use crate::compare::{
+    Align, CompareError, Comparison, NormRow, Request, Stated, Subject, compare, data, of_one_kind, percent,
+};
 use crate::model::Problem;
 use crate::model::Registry;
 use crate::output::{Compared, prepare_comparison, read_run, write_comparison};
@@ -67,6 +69,16 @@ enum Loaded {
     Ready(Box<Subject>),
 }
 
+impl Loaded {
+    /// Its name and the kind of its scene, if that is known.
+    fn kind(&self) -> Option<(String, String)> {
+        match self {
+            Self::Case(case) => Some((case.0.name.clone(), case.1.scene.as_ref()?.kind().to_owned())),
+            Self::Ready(subject) => Some((subject.name.clone(), subject.stated.as_ref()?.scene.kind.clone())),
+        }
+    }
+}
+
 impl Verb for Compare {
     fn json(&self) -> bool {
         self.json
@@ -80,6 +92,7 @@ impl Verb for Compare {
         }
         let request = self.request();
         let (loaded, names) = self.load(registry)?;
+        of_one_kind(loaded.iter().filter_map(Loaded::kind))?;
         let mut progress = Progress::new(self.quiet);
         let out = self.out.clone().unwrap_or_else(|| Comparison::folder(&names, request.align, request.scale));
         let folder = prepare_comparison(&out, &json!(request), self.force)?;

@@ -4,6 +4,8 @@ use clap::Args;
 
 use super::{CaseArgs, CliError, Verb, say};
 use crate::model::Registry;
+use crate::scene::Scene;
+use crate::units::significant;
 
 /// Show the equations that a case solves, with its numbers, and the laws in them.
 #[derive(Debug, Args)]
@@ -22,6 +24,9 @@ impl Verb for Explain {
             problem.model_name(),
             problem.describe().equations
         );
+        if let Some(scene) = &problem.scene {
+            text += &flow(scene);
+        }
         let laws = problem.describe().laws;
         if !laws.is_empty() {
             text += "\nLaws\n";
@@ -34,4 +39,13 @@ impl Verb for Explain {
         }
         Ok(say(&text)?)
     }
+}
+
+/// What the flow alone fixes.
+fn flow(scene: &Scene) -> String {
+    let mut text = format!("\nFlow: a scene of the kind {}\n", scene.kind());
+    for number in scene.numbers() {
+        text += &format!("  {:<22} {:>10}  {}\n", number.name, significant(number.value, 4), number.definition);
+    }
+    text
 }

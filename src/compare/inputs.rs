@@ -93,12 +93,11 @@ pub(super) fn rows(subjects: &[Subject]) -> Vec<InputRow> {
     rows
 }
 
-/// Refuses flows that have nothing to do with each other.
+/// Refuses flows that have nothing to do with each other: each by its name and the kind of its scene.
 ///
 /// # Errors
 /// [`CompareError::DifferentKinds`] with the first two.
-pub(super) fn of_one_kind(subjects: &[Subject]) -> Result<(), CompareError> {
-    let mut kinds = subjects.iter().filter_map(|s| Some((s.name.clone(), s.stated.as_ref()?.scene.kind.clone())));
+pub fn of_one_kind(mut kinds: impl Iterator<Item = (String, String)>) -> Result<(), CompareError> {
     let Some((reference, kind)) = kinds.next() else { return Ok(()) };
     match kinds.find(|(_, other)| *other != kind) {
         None => Ok(()),

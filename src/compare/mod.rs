@@ -20,7 +20,7 @@ use serde::Serialize;
 
 pub use data::{DataError, DataFault};
 pub use frame::{Align, Scales, View, scaled_unit};
-pub use inputs::{InputRow, Stated};
+pub use inputs::{InputRow, Stated, of_one_kind};
 pub use norms::{Deviation, Side, Sigmas};
 pub use numbers::NumberRow;
 pub use page::{origin, percent};
@@ -279,7 +279,7 @@ pub fn compare(mut subjects: Vec<Subject>, align: Align, scaled: bool) -> Result
         .collect();
     let name = reference.name.clone();
     tell_apart(&mut subjects);
-    inputs::of_one_kind(&subjects)?;
+    of_one_kind(subjects.iter().filter_map(|s| Some((s.name.clone(), s.stated.as_ref()?.scene.kind.clone()))))?;
     let views =
         subjects.iter().map(|s| View::of(s, align, scaled, &shared)).collect::<Result<Vec<_>, CompareError>>()?;
     let norms = all_norms(&views, &shared);

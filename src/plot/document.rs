@@ -1,7 +1,7 @@
 //! A page of tables and figures that is not that of a run: the same style, the same escaping.
 
-use super::report::{figures, pairs, typeset};
-use super::shell::{foot, head};
+use super::report::{figures, pairs};
+use super::shell::{foot, head, typeset};
 use super::svg::escape;
 use crate::result::Figure;
 

@@ -18,6 +18,7 @@ mod samples;
 mod section;
 mod several;
 mod shell;
+mod stated;
 mod svg;
 mod theme;
 

@@ -8,7 +8,8 @@ use crate::result::{Animation, Reported, Statement, Status, Summary};
 use crate::units::{readable, readable_mean, significant};
 
 use super::animation::animation_html;
-use super::shell::{foot, head};
+use super::shell::{foot, head, typeset};
+use super::stated::{flow, statement};
 use super::svg::{escape, svg};
 use crate::result::Figure;
 
@@ -68,6 +69,7 @@ pub fn report_html(page: &Page<'_>) -> String {
     for note in page.notes {
         html += &format!("<p class=\"note\">{}</p>\n", escape(note));
     }
+    html += &summary.scene.as_ref().map(flow).unwrap_or_default();
     html += &statement(page.statement);
     html += &origin(summary);
     html += &format!(
@@ -75,33 +77,6 @@ pub fn report_html(page: &Page<'_>) -> String {
         escape(page.case_toml.trim_end())
     );
     html + &foot()
-}
-
-/// Equations and laws.
-fn statement(statement: &Statement) -> String {
-    let mut html = String::new();
-    if !statement.equations.trim().is_empty() {
-        html += &format!(
-            "<section><h2>Equations solved</h2><pre class=\"equations\">{}</pre></section>\n",
-            escape(statement.equations.trim_end())
-        );
-    }
-    if !statement.laws.is_empty() {
-        html += "<section><h2>Laws</h2><div class=\"wide\"><table><thead><tr><th>law</th><th>equation</th><th>given for</th>\
-                 <th>source</th></tr></thead><tbody>";
-        for law in &statement.laws {
-            html += &format!(
-                "<tr><td><code>{}/{}</code></td><td>{}</td><td>{}</td><td>{}</td></tr>",
-                escape(&law.family),
-                escape(&law.law),
-                escape(&law.equation),
-                escape(&law.ranges.join("; ")),
-                escape(&law.source)
-            );
-        }
-        html += "</tbody></table></div></section>\n";
-    }
-    html
 }
 
 /// What went wrong, before everything else, and whether a state was drawn nevertheless.
@@ -281,17 +256,6 @@ fn duration(seconds: f64) -> String {
         s if s < 120.0 => format!("{s:.1} s"),
         s => format!("{:.1} min", s / 60.0),
     }
-}
-
-/// `3.310e-5 m²/s` as it is printed: 3.310 × 10 to the −5.
-pub(super) fn typeset(number: &str) -> String {
-    let (mantissa, unit) = number.split_once(' ').unwrap_or((number, ""));
-    let minus = |text: &str| escape(text).replace('-', "−");
-    let figures = match mantissa.split_once('e') {
-        Some((digits, power)) => format!("{} × 10<sup>{}</sup>", minus(digits), minus(power)),
-        None => minus(mantissa),
-    };
-    if unit.is_empty() { figures } else { format!("{figures}&nbsp;{}", escape(unit)) }
 }
 
 /// `u_max` with its index below the line.

@@ -38,6 +38,17 @@ pub(super) fn foot() -> String {
     format!("</main>\n<script>{SCRIPT}</script></body></html>\n")
 }
 
+/// `3.310e-5 m²/s` as it is printed: 3.310 × 10 to the −5.
+pub(super) fn typeset(number: &str) -> String {
+    let (mantissa, unit) = number.split_once(' ').unwrap_or((number, ""));
+    let minus = |text: &str| escape(text).replace('-', "−");
+    let figures = match mantissa.split_once('e') {
+        Some((digits, power)) => format!("{} × 10<sup>{}</sup>", minus(digits), minus(power)),
+        None => minus(mantissa),
+    };
+    if unit.is_empty() { figures } else { format!("{figures}&nbsp;{}", escape(unit)) }
+}
+
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;

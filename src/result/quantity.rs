@@ -239,7 +239,7 @@ catalogue! {
     STEPS = "time_steps", "time steps", "N", "1", "steps kept";
     STEPS_REFUSED = "time_steps_refused", "time steps refused", "N_0", "1", "steps taken again, shorter";
     NEWTON_ITERATIONS = "newton_iterations", "Newton iterations", "N_N", "1", "linear systems solved, of all stages";
-    SOLID_VOLUME = "solid_volume_m", "solid volume", "V", "m", "integral of φ over z";
+    SOLID_VOLUME = "solid_volume_m", "solid volume", "V", "m", "integral of φ over z; of the mobile grains where they are counted";
     SEEPAGE = "seepage_velocity_m_s", "seepage velocity", "u_f(0)", "m/s", "velocity of the fluid through the lowest cell of the bed";
     WALL_PRESSURE = "wall_pressure_Pa", "pressure on the walls", "p", "Pa", "of grains between two walls, the same at every height";
     WALL_SHEAR = "wall_shear_stress_Pa", "shear stress on the walls", "τ", "Pa", "of grains between two walls, the same at every height";

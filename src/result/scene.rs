@@ -10,7 +10,7 @@ pub struct SceneRecord {
     pub kind: String,
     /// its inputs by dotted path, in SI
     pub inputs: Map<String, Value>,
-    /// its numbers by name
+    /// its numbers by name: `value` in SI and `definition`
     pub numbers: Map<String, Value>,
     /// solid volume of the bed at rest per area \[m]
     #[serde(default, skip_serializing_if = "Option::is_none")]

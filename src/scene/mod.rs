@@ -23,7 +23,7 @@ pub use granular::{GranularFlow, GranularScene};
 pub use number::{Given, SceneNumber};
 
 use serde::Serialize;
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, json};
 
 use crate::result::{SceneRecord, flatten};
 
@@ -121,7 +121,11 @@ impl Scene {
             flatten("", &Value::Object(tables), &mut inputs);
         }
         inputs.shift_remove("scene");
-        let numbers = self.numbers().into_iter().map(|number| (number.name.to_owned(), number.value.into())).collect();
+        let numbers = self.numbers().into_iter().map(|number| {
+            let SceneNumber { name, value, definition } = number;
+            (name.to_owned(), json!({ "value": value, "definition": definition }))
+        });
+        let numbers = numbers.collect();
         SceneRecord { kind: self.kind().to_owned(), inputs, numbers, solid_volume_m: self.solid_volume() }
     }
 }

@@ -32,8 +32,8 @@ const ALLOWED: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
-            "advise", "case", "closures", "compare", "model", "output", "plot", "result", "runtime", "study", "units",
-            "validate",
+            "advise", "case", "closures", "compare", "model", "output", "plot", "result", "runtime", "scene", "study",
+            "units", "validate",
         ],
     ),
 ];

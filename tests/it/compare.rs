@@ -1,6 +1,6 @@
 //! `bedload compare` as a person runs it: what it writes, what it refuses, with which code.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::support::{Scratch, comparable};
 
@@ -42,6 +42,40 @@ fn two_cases_give_a_folder_and_at_most_twelve_lines() {
         table.contains("\nsubject,column,unit,levels,")
             && table.contains("\nexact_1d_ouriemi_mixed,u_mixture_m_s,m/s,")
     );
+}
+
+fn inputs(found: &Value) -> Vec<(&str, &Value)> {
+    let rows = found["inputs"].as_array().unwrap().iter();
+    rows.map(|row| (row["path"].as_str().unwrap(), &row["values"])).collect()
+}
+
+#[test]
+fn every_input_that_differs_is_named_with_its_values() {
+    let scratch = Scratch::new();
+    // Of one model every value of the case counts.
+    let found = answer(&scratch, &["compare", TWO, MIXED, "--json", "--out", "one"]);
+    let expected = [
+        ("model.form", json!(["two-fluid", "mixed"])),
+        ("closures.drag.law", json!(["carman-kozeny", "none"])),
+        ("closures.drag.k_ck", json!([180.0, null])),
+        ("closures.drag.phi_min", json!([0.0, null])),
+    ];
+    let found = inputs(&found);
+    assert_eq!(found, expected.iter().map(|(path, values)| (*path, values)).collect::<Vec<_>>());
+    // Of two models, the flow and the laws that both have, a run as well as a case.
+    exits(&scratch, 0, &["run", "laminar_1d_ouriemi", "--set", "bed.level=14 mm", "--out", "run", "--quiet"]);
+    let found = answer(&scratch, &["compare", TWO, "run", "--json", "--out", "two"]);
+    let depths = found["inputs"].as_array().unwrap().iter().map(|row| row["path"].as_str().unwrap());
+    assert_eq!(depths.collect::<Vec<_>>(), ["bed.thickness", "flow.depth"]);
+    let warned = found["warnings"].to_string();
+    assert!(warned.contains("different amounts of sediment") && warned.contains("7.700 mm"), "{warned}");
+    let page = scratch.read("two/report.html");
+    assert!(page.contains("Inputs that differ</h2>") && page.contains("solid volume per area"));
+    let (out, _) = exits(&scratch, 0, &["compare", TWO, "run", "--out", "two"]);
+    assert!(out.contains("\n  inputs differ    bed.thickness, flow.depth (see the report)\n"), "{out}");
+    // What is the same flow differs in nothing.
+    let found = answer(&scratch, &["compare", TWO, "laminar_1d_ouriemi", "--json", "--out", "same"]);
+    assert_eq!(inputs(&found), []);
 }
 
 #[test]
@@ -141,6 +175,7 @@ fn wrong_input_exits_2_and_writes_nothing() {
         (&[TWO, "--data", "bare.csv", "--scale"], "no-number", "# flow_height_m = ..."),
         (&[TWO, "--data", "high.csv", "--scale"], "no-scale", "high does not have mean_velocity_m_s, by which --scale"),
         (&[TWO, "exact_1d_ouriemie"], "", "exact_1d_ouriemi"),
+        (&[TWO, "exact_1d_bagnold"], "different-kinds", "exact_1d_bagnold is a scene of the kind granular"),
     ] {
         let arguments = [&["compare"], arguments].concat();
         let (out, err) = exits(&scratch, 2, &arguments);

@@ -90,7 +90,7 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
         status: outcome.status,
         case: problem.name.clone(),
         model: problem.model_name(),
-        scene: None,
+        scene: problem.scene.as_ref().map(bedload::scene::Scene::record),
         results: outcome.results.clone(),
         balances: outcome.balances.clone(),
         validity: outcome.validity.clone(),

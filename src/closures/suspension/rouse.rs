@@ -6,8 +6,9 @@
 //! | `nu_t` | eddy viscosity eta_t/rho_f | m2/s |
 //! | `phi` | solid fraction | 1 |
 //!
-//! With `nu_t = kappa u_* z (1 - z/h)` it is Rouse's power law of exponent `w_s/(kappa u_*)`. The settling velocity is an
-//! input: no drag law of spheres gives that of cylinders (0.072 m/s for those of Sumer et al.).
+//! With `nu_t = kappa u_* z (1 - z/h)` it is Rouse's power law of exponent `w_s/(kappa u_*)`. Where the
+//! settling velocity is not given it is that of a sphere; no drag law of spheres gives that of cylinders (0.072 m/s for those
+//! of Sumer et al.).
 //! Source: Rouse (1937), Trans. ASCE 102, 463-505; Revil-Baudard & Chauchat (2013), eq. (26)-(27).
 
 use schemars::JsonSchema;
@@ -33,23 +34,22 @@ pub static INFO: Info = Info {
 /// Settling against turbulent diffusion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Rouse {
-    /// Settling velocity of the grains.
+    /// Settling velocity of the grains; left out, it is that of a sphere alone under the drag of the flow.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
-    pub settling_velocity: f64,
+    pub settling_velocity: Option<f64>,
 }
 
 impl Settling for Rouse {
     fn settling_velocity(&self) -> Option<f64> {
-        Some(self.settling_velocity)
+        self.settling_velocity
     }
 }
 
-impl Rouse {
-    /// Fall of ln(phi) per height [1/m] for the eddy viscosity `nu_t` [m2/s].
-    #[must_use]
-    pub fn decay<T: Real>(&self, nu_t: T) -> T {
-        T::constant(self.settling_velocity) / nu_t
-    }
+/// Fall of ln(phi) per height [1/m] of grains that settle at `w_s` [m/s], for the eddy viscosity `nu_t` [m2/s].
+#[must_use]
+pub fn decay<T: Real>(w_s: f64, nu_t: T) -> T {
+    T::constant(w_s) / nu_t
 }
 
 #[cfg(test)]
@@ -62,8 +62,7 @@ mod tests {
     fn the_power_law_of_rouse() {
         // nu_t = kappa u_* z (1 - z/h) from a to z: phi/phi_a = ((h - z)/z a/(h - a))^(w_s/(kappa u_*))
         let (kappa, u_star, h, a, z) = (0.4, 0.1, 1.0, 0.05, 0.6);
-        let law = Rouse { settling_velocity: 0.03 };
-        let exponent = -simpson(|z| law.decay(kappa * u_star * z * (1.0 - z / h)), a, z, 4000);
+        let exponent = -simpson(|z| decay(0.03, kappa * u_star * z * (1.0 - z / h)), a, z, 4000);
         let expect = ((h - z) / z * a / (h - a)).powf(0.03 / (kappa * u_star));
         assert_relative_eq!(exponent.exp(), expect, max_relative = 1e-9);
     }

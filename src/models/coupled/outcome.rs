@@ -33,6 +33,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     let fluid = run.record.fluid(first);
     let mut results = Results::default();
     results.set(&q::GRAINS, bed.mobile as f64);
+    results.set(&q::SOLID_VOLUME, bed.mobile as f64 * bed.mass() / (bed.rho_p * bed.size[0] * bed.size[1]));
     let stress = flow.stress_scale();
     let velocity = ((bed.rho_p / flow.rho_f - 1.0) * bed.g * bed.d).sqrt();
     let grain = std::f64::consts::PI / 6.0 * bed.d.powi(3);

@@ -8,7 +8,7 @@ use crate::closures::drag::Dallavalle;
 use crate::closures::friction::{FrictionLaw, MuI};
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::rearrangement::{Clock, Grain, Rearrangement};
-use crate::closures::suspension::{Rouse, Suspension};
+use crate::closures::suspension::Settling;
 use crate::models::sheet_flow::SheetFlow;
 use crate::numerics::dual::Real;
 
@@ -33,8 +33,8 @@ pub struct Flow<F = MuI> {
     pub kappa: f64,
     /// solid fraction at which the turbulence dies
     pub phi_l: f64,
-    /// suspension, scaled; `None`: clear fluid above the bed
-    pub suspension: Option<Rouse>,
+    /// settling velocity of grains in suspension, scaled; `None`: clear fluid above the bed
+    pub settling: Option<f64>,
     /// regularisation; 0 for the exact yield
     pub lambda: f64,
     /// solid volume under the interface in which the buoyancy of the viscous stress is left out
@@ -100,10 +100,7 @@ impl<F: FrictionLaw> Flow<F> {
             rearrangement: sheet.rearrangement,
             kappa: sheet.mixing_length.kappa,
             phi_l: sheet.mixing_length.phi_max,
-            suspension: match sheet.suspension {
-                Suspension::None => None,
-                Suspension::Rouse(law) => Some(Rouse { settling_velocity: law.settling_velocity / velocity }),
-            },
+            settling: sheet.suspension.settling_velocity().map(|w_s| w_s / velocity),
             lambda: sheet.lambda * sheet.d / velocity,
             cut: sheet.cut / sheet.d,
         }

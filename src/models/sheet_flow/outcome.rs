@@ -11,6 +11,7 @@ use super::problem::PseudoTime;
 use super::profile::profile;
 use super::solve::{self, Solved};
 use crate::closures::dilatancy::phi_i;
+use crate::closures::drag::DallavalleGrain;
 use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE};
 use crate::closures::lid::Lid;
 use crate::closures::suspension::Settling;
@@ -29,6 +30,9 @@ use crate::result::{
 const THICKNESS: Range = Range { variable: "sheet_thickness_m/d", min: 3.0, max: f64::INFINITY };
 /// Sheet flow proper.
 const SHEET: Range = Range { variable: "shields", min: 0.5, max: f64::INFINITY };
+
+/// A given settling velocity over that of a sphere of this diameter and density: cylinders of Sumer et al. (1996) have 0.73.
+const SETTLING: Range = Range { variable: "w_s over that of a sphere", min: 1.0 / 1.5, max: 1.5 };
 
 /// Scaled numbers from which on products of a few of them overflow.
 const LARGEST: f64 = 1e60;
@@ -290,6 +294,11 @@ fn validity<F: FrictionLaw>(sheet: &SheetFlow<F>, results: &Results, layers: &La
     for range in sheet.lid.info().ranges {
         let reynolds = sheet.rho_f * 2.0 * layers.totals.discharge * sheet.velocity_scale() * sheet.d / sheet.eta;
         found.extend(at(sheet.lid.info(), range, reynolds, sheet.height / sheet.d));
+    }
+    if let Some(w_s) = sheet.suspension.settling_velocity() {
+        let buoyant = (sheet.rho_p / sheet.rho_f - 1.0) * sheet.g;
+        let sphere = DallavalleGrain::default().settling_velocity(buoyant, sheet.eta / sheet.rho_f, sheet.d);
+        found.extend(outside("grains/settling velocity".into(), &SETTLING, w_s / sphere));
     }
     if let Some(thickness) = results.get(q::SHEET_THICKNESS.name) {
         found.extend(outside("continuum/moving layer".into(), &THICKNESS, thickness / sheet.d));

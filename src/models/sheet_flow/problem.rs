@@ -117,10 +117,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             Lid::FreeSurface => Top::FreeSurface,
             lid => Top::Lid(lid),
         };
-        let settling_velocity = match closures.suspension {
-            Suspension::Rouse(law) => Some(law.settling_velocity),
-            Suspension::None => None,
-        };
+        let settling_velocity = closures.suspension.settling_velocity();
         // The interface in the flow holds an amount of grains that is a result.
         let phi = (bed.reading == BedReading::Initial).then_some(closures.dilatancy.0.phi_max);
         BedScene {
@@ -225,7 +222,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             viscosity: closures.mixture_viscosity,
             drag,
             mixing_length,
-            suspension: closures.suspension,
+            suspension: closures.suspension.settling_at(scene.settling_velocity().value()),
             lambda,
             cut: regularisation.interface_cut * grains.diameter,
             deepen_cut: regularisation.deepen_cut,

@@ -7,6 +7,7 @@
 use super::flow::Flow;
 use super::mesh::Mesh;
 use crate::closures::friction::FrictionLaw;
+use crate::closures::suspension::rouse;
 use crate::numerics::dual::{Dual, Real};
 
 /// What the bed and the drive give.
@@ -75,7 +76,7 @@ pub fn march<T: Real, F: FrictionLaw>(
     let zero = T::constant(0.0);
     let weight = flow.fluid_weight(inflow.sine);
     let reach = inflow.tau_b / weight;
-    let clear = flow.suspension.is_none();
+    let clear = flow.settling.is_none();
     let ln_phi = if clear { T::constant(f64::NEG_INFINITY) } else { inflow.phi.ln() };
     let mut level = Level { z: zero, ln_phi, length: inflow.length, u: inflow.u, cell: (zero, zero, zero) };
     let mut totals = Totals { volume: zero, flux: zero, discharge: zero, height: reach };
@@ -87,8 +88,8 @@ pub fn march<T: Real, F: FrictionLaw>(
         totals.volume = totals.volume + phi * dz;
         totals.flux = totals.flux + phi * u * dz;
         totals.discharge = totals.discharge + u * dz;
-        if let (true, Some(law)) = (grains, flow.suspension) {
-            level.ln_phi = level.ln_phi - law.decay(eddy) * dz;
+        if let (true, Some(w_s)) = (grains, flow.settling) {
+            level.ln_phi = level.ln_phi - rouse::decay(w_s, eddy) * dz;
         }
         *level = Level {
             z: level.z + dz,
@@ -130,10 +131,10 @@ fn layer_shear<T: Real, F: FrictionLaw>(flow: &Flow<F>, phi: T, length: T, stres
 /// function.
 fn middle_fraction<T: Real, F: FrictionLaw>(flow: &Flow<F>, level: &Level<T>, dz: T, stress: T) -> T {
     fn image<T: Real, F: FrictionLaw>(flow: &Flow<F>, (ln_phi, length): (T, T), (dz, stress): (T, T), phi: T) -> T {
-        let Some(law) = flow.suspension else { return T::constant(0.0) };
+        let Some(w_s) = flow.settling else { return T::constant(0.0) };
         let length = length + growth(flow, phi) * dz * 0.5;
         let (_, eddy) = layer_shear(flow, phi, length, stress);
-        (ln_phi - law.decay(eddy) * dz * 0.5).exp()
+        (ln_phi - rouse::decay(w_s, eddy) * dz * 0.5).exp()
     }
     let values = ((level.ln_phi.value(), level.length.value()), (dz.value(), stress.value()));
     let mut phi = level.ln_phi.value().exp();
