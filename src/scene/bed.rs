@@ -7,38 +7,41 @@
 //! | `w_s` | settling velocity, given or of a sphere | m/s |
 //! | `s` | `rho_p/rho_f` | 1 |
 
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::{Given, Grains, SceneNumber};
 use crate::case::Fault;
-use crate::case::tables::{Fluid, Oscillation, Shape, SlopeDefinition};
+use crate::case::tables::{Fluid, Oscillation, Shape, SlopeDefinition, standard_gravity};
 use crate::closures::drag::DallavalleGrain;
-use crate::closures::lid::Lid;
+use crate::closures::lid::{self, Lid};
 
 /// Von Karman's constant, in the Rouse number.
 const KAPPA: f64 = 0.41;
 
 /// A flow over a bed of grains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedScene {
-    /// the fluid
+    /// The fluid.
     pub fluid: Fluid,
-    /// the grains
+    /// The grains.
     pub grains: Grains,
-    /// the bed at rest
+    /// The bed at rest.
     pub bed: Bed,
-    /// the flow over it
+    /// The flow over it, and what drives it.
     pub flow: BedFlow,
 }
 
 /// A packed bed at rest.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Bed {
-    /// thickness \[m]; `None` where grains are counted instead
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Thickness of the packed bed at rest.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
     pub thickness: Option<f64>,
-    /// solid fraction; `None` where it is a result
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Solid fraction of the bed at rest; 0.7405 is the densest packing of equal spheres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
     pub phi: Option<f64>,
 }
 
@@ -51,38 +54,47 @@ impl Bed {
 }
 
 /// The clear fluid over a bed, and what drives it. Which of the drives are given is checked by the model.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedFlow {
-    /// depth of the clear fluid over the bed \[m]; `None` where it follows from the drive or from the top
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Depth of the clear fluid over the bed at rest; left out, it follows from the drive or from the top.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "minimum" = 0.0, "maximum" = 1e4))]
     pub depth: Option<f64>,
-    /// what bounds the flow above
+    /// What bounds the flow above.
+    #[serde(default)]
     pub top: Top,
-    /// distance of side walls \[m]; `None`: as wide as no wall matters
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Distance of the side walls; left out, the flow is so wide that no wall matters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
     pub width: Option<f64>,
-    /// cross-section of a closed duct
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Cross-section of a closed duct.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
-    /// slope, as its definition says
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Drive: the slope, as slope_definition says, or an angle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "minimum" = 0.0, "maximum" = 10.0))]
     pub slope: Option<f64>,
-    /// what the number given as slope is
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slope_definition: Option<SlopeDefinition>,
-    /// Shields number
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Drive: Shields number, the stress on the bed over (rho_p - rho_f) g d.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
     pub shields: Option<f64>,
-    /// friction velocity [m/s]
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Drive: friction velocity at the bed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
     pub u_star: Option<f64>,
-    /// fall of pressure along the flow, -dp/dx [Pa/m]
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Drive: fall of pressure along the flow, -dp/dx.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
     pub pressure_gradient: Option<f64>,
-    /// gravity [m/s2]
+    /// Acceleration of gravity.
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    #[serde(default = "standard_gravity")]
     pub gravity: f64,
-    /// a pressure gradient that goes to and fro, besides
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Waves: a pressure gradient that goes to and fro, besides the steady drive.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub oscillation: Option<Oscillation>,
 }
 
@@ -126,27 +138,62 @@ impl BedFlow {
     }
 }
 
-/// What bounds a flow above.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-#[serde(rename_all = "kebab-case")]
+/// What bounds a flow above: a word, or a law with what it needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "law", rename_all = "kebab-case")]
 pub enum Top {
-    /// a free surface
+    /// A free surface.
+    #[default]
     FreeSurface,
-    /// a plane on which the fluid does not slip
+    /// A plane on which the fluid does not slip.
     Plane,
-    /// the lid of a duct, and the stress that it takes from a turbulent flow
-    Lid(Lid),
-    /// a free surface at this height over the mean centre of the fixed grains \[m]: the depth is known after the deposit
-    OverFixedGrains(f64),
+    /// The lid of a duct that takes a given stress from the flow.
+    Stress(lid::Stress),
+    /// The lid of a duct, its stress solved for: the slope and the stress on the bed are given.
+    Solved,
+    /// The lid of a duct with the friction of Colebrook and White.
+    ColebrookWhite(lid::ColebrookWhite),
+    /// A free surface over the fixed grains under a bed that is let fall: the depth is known after the deposit.
+    OverFixedGrains {
+        /// Height of the surface over the mean centre of the fixed grains.
+        #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e2))]
+        height: f64,
+    },
+}
+
+impl From<Lid> for Top {
+    fn from(lid: Lid) -> Self {
+        match lid {
+            Lid::FreeSurface => Self::FreeSurface,
+            Lid::Stress(law) => Self::Stress(law),
+            Lid::Solved => Self::Solved,
+            Lid::ColebrookWhite(law) => Self::ColebrookWhite(law),
+        }
+    }
+}
+
+impl Top {
+    /// The law of the stress on the top of a turbulent flow; `None` for a top that is none of them.
+    #[must_use]
+    pub fn lid(&self) -> Option<Lid> {
+        match *self {
+            Self::FreeSurface => Some(Lid::FreeSurface),
+            Self::Stress(law) => Some(Lid::Stress(law)),
+            Self::Solved => Some(Lid::Solved),
+            Self::ColebrookWhite(law) => Some(Lid::ColebrookWhite(law)),
+            Self::Plane | Self::OverFixedGrains { .. } => None,
+        }
+    }
 }
 
 /// Cross-section of a closed duct; its height is that of bed and flow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Section {
-    /// outline
+    /// Outline.
     pub shape: Shape,
-    /// width of a rectangle \[m]; `None`: a square
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Width of a rectangle; left out, it is a square.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
     pub width: Option<f64>,
 }
 

@@ -1,19 +1,24 @@
 //! A flow without grains, and one whose geometry is a matter of the model.
 
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::bed::Section;
 use super::{Grains, SceneNumber};
 use crate::case::tables::{BinghamFluid, Fluid};
 
 /// A fluid with or without a yield stress.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Material {
-    /// density [kg/m3]
+    /// Density of the fluid.
+    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0, "maximum" = 20000.0))]
     pub density: f64,
-    /// viscosity, the plastic one of a yield-stress fluid [Pa s]
+    /// Dynamic viscosity of the fluid, the plastic one of a yield-stress fluid.
+    #[schemars(extend("x-unit" = "Pa s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
     pub viscosity: f64,
-    /// yield stress \[Pa]; 0 is a Newtonian fluid
+    /// Yield stress of the fluid; 0 is a Newtonian fluid.
+    #[serde(default)]
+    #[schemars(extend("x-unit" = "Pa", "minimum" = 0.0, "maximum" = 1e9))]
     pub yield_stress: f64,
 }
 
@@ -30,30 +35,34 @@ impl From<&Fluid> for Material {
 }
 
 /// A flow without grains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ChannelScene {
-    /// the fluid
+    /// The fluid.
     pub fluid: Material,
-    /// the channel and what drives the flow
+    /// The channel, and what drives the flow in it.
     pub flow: ChannelFlow,
 }
 
 /// A channel, and the one drive of the flow in it.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ChannelFlow {
-    /// depth, distance of two planes, height of a section \[m]
+    /// Depth: of the flow, the distance of two planes, the height of a section.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
     pub depth: f64,
-    /// cross-section of a closed duct; `None`: plane
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Cross-section of a closed duct; left out, the flow is plane.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
-    /// fall of pressure along the flow, -dp/dx [Pa/m]
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Drive: fall of pressure along the flow, -dp/dx.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
     pub pressure_gradient: Option<f64>,
-    /// mean velocity [m/s]
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Drive: mean velocity.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
     pub mean_velocity: Option<f64>,
-    /// friction velocity [m/s]
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Drive: friction velocity at the wall.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
     pub u_star: Option<f64>,
 }
 
@@ -85,12 +94,12 @@ impl ChannelScene {
 }
 
 /// A flow whose geometry is a matter of the model: its matter alone.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BenchmarkScene {
-    /// the fluid, if there is one
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// The fluid, if there is one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fluid: Option<Material>,
-    /// the grains, if there are some
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// The grains, if there are some.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grains: Option<Grains>,
 }

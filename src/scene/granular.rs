@@ -1,34 +1,46 @@
 //! Grains without a fluid that drives them: a film, a chute, a bed at rest.
 
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::{Bed, Grains, SceneNumber};
 use crate::case::Fault;
-use crate::case::tables::SlopeDefinition;
+use crate::case::tables::{SlopeDefinition, standard_gravity};
 
 /// Grains without a fluid that drives them.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GranularScene {
-    /// the grains
+    /// The grains.
     pub grains: Grains,
-    /// the layer at rest
+    /// The layer of grains at rest.
+    #[serde(default)]
     pub bed: Bed,
-    /// its tilt and its walls
+    /// Its tilt and its walls.
     pub flow: GranularFlow,
 }
 
 /// Tilt and walls of a layer of grains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct GranularFlow {
-    /// slope, as its definition says; 0 is a bed at rest
+    /// Drive: the slope, as slope_definition says, or an angle; 0 is a bed at rest.
+    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "minimum" = 0.0, "maximum" = 10.0))]
+    #[serde(default)]
     pub slope: f64,
-    /// what the number given as slope is
+    /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
+    #[serde(default = "tangent")]
     pub slope_definition: SlopeDefinition,
-    /// gravity [m/s2]
+    /// Acceleration of gravity.
+    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+    #[serde(default = "standard_gravity")]
     pub gravity: f64,
-    /// distance of side walls \[m]; `None`: as wide as no wall matters
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Distance of the side walls; left out, the flow is so wide that no wall matters.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
     pub width: Option<f64>,
+}
+
+fn tangent() -> SlopeDefinition {
+    SlopeDefinition::Tangent
 }
 
 impl GranularFlow {

@@ -22,26 +22,32 @@ pub use channel::{BenchmarkScene, ChannelFlow, ChannelScene, Material};
 pub use granular::{GranularFlow, GranularScene};
 pub use number::{Given, SceneNumber};
 
-use serde::Serialize;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use crate::result::{SceneRecord, flatten};
 
-/// The grains of a scene.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+/// The grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Grains {
-    /// diameter \[m]
+    /// Diameter of the grains.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
     pub diameter: f64,
-    /// density [kg/m3]
+    /// Density of the grains.
+    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0, "maximum" = 30000.0))]
     pub density: f64,
-    /// restitution coefficient of two grains
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Restitution coefficient of two grains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1.0))]
     pub restitution: Option<f64>,
-    /// friction coefficient between two grains
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Friction coefficient between two grains.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
     pub friction: Option<f64>,
-    /// settling velocity [m/s], where it is given
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Settling velocity of the grains; left out, it is that of a sphere alone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
     pub settling_velocity: Option<f64>,
 }
 

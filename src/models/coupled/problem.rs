@@ -119,7 +119,10 @@ impl Model for Coupled {
                 width: flow.side_walls.then_some(flow.width),
                 slope: Some(flow.slope),
                 slope_definition: Some(flow.slope_definition),
-                ..BedFlow::new(flow.height.map_or(Top::FreeSurface, Top::OverFixedGrains), flow.gravity)
+                ..BedFlow::new(
+                    flow.height.map_or(Top::FreeSurface, |height| Top::OverFixedGrains { height }),
+                    flow.gravity,
+                )
             },
         }
     }
@@ -133,10 +136,10 @@ impl Model for Coupled {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
         let surface = match (scene.flow.top, scene.flow.depth) {
-            (Top::OverFixedGrains(height), None) => Some(Surface::Height(height)),
+            (Top::OverFixedGrains { height }, None) => Some(Surface::Height(height)),
             (Top::FreeSurface, Some(depth)) => Some(Surface::Depth(depth)),
             (top, depth) => {
-                let given = [matches!(top, Top::OverFixedGrains(_)).then_some("height"), depth.map(|_| "depth")];
+                let given = [matches!(top, Top::OverFixedGrains { .. }).then_some("height"), depth.map(|_| "depth")];
                 let given = given.into_iter().flatten().map(str::to_owned).collect();
                 faults.push(("flow", CoupledFault::Surfaces { given }));
                 None

@@ -22,7 +22,7 @@ use crate::models::{BedFault, RegularisationSize};
 use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
-use crate::scene::{Bed, BedFlow, BedScene, Grains, Top};
+use crate::scene::{Bed, BedFlow, BedScene, Grains};
 use crate::units::significant;
 
 /// How the pseudo-time iteration steps, and when it ends.
@@ -113,10 +113,6 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
 
     fn scene(tables: &SheetFlowTables<F>) -> BedScene {
         let SheetFlowTables { fluid, grains, bed, flow, closures, .. } = tables;
-        let top = match closures.lid {
-            Lid::FreeSurface => Top::FreeSurface,
-            lid => Top::Lid(lid),
-        };
         let settling_velocity = closures.suspension.settling_velocity();
         // The interface in the flow holds an amount of grains that is a result.
         let phi = (bed.reading == BedReading::Initial).then_some(closures.dilatancy.0.phi_max);
@@ -130,7 +126,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
                 u_star: flow.u_star,
                 slope: flow.slope,
                 slope_definition: flow.slope.map(|_| flow.slope_definition),
-                ..BedFlow::new(top, flow.gravity)
+                ..BedFlow::new(closures.lid.into(), flow.gravity)
             },
         }
     }
@@ -161,10 +157,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             .zip(DRIVES)
             .filter_map(|(given, name)| given.map(|_| name.to_owned()))
             .collect();
-        let lid = match flow.top {
-            Top::Lid(lid) => lid,
-            _ => Lid::FreeSurface,
-        };
+        let lid = flow.top.lid()?;
         let solved = lid == Lid::Solved;
         let complete = if solved { flow.slope.is_some() && drives.len() == 2 } else { drives.len() == 1 };
         if !complete {
