@@ -12,6 +12,7 @@ use bedload::closures::{Info, Standing};
 use bedload::model::{Focus, Meshes, ONE_KIND, StudyPlan, number};
 use bedload::prelude::*;
 use bedload::result::{Class, quantity as q};
+use bedload::scene::Material;
 use bedload::study::{Conducted, Observer, Settings, conduct, converge, sweep};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -99,6 +100,19 @@ bedload::tables! {
     }
 }
 
+bedload::part! {
+    /// A film of a shear-thinning fluid down a slope.
+    pub struct FilmTable {
+        /// Geometry and drive.
+        geometry: FilmFlow,
+        /// Laws.
+        closures: FilmClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
+    }
+}
+
 /// Cells times the exponent n below which the velocity of the surface is wrong by more than 1 %.
 const FEWEST: f64 = 2.0;
 /// Fastest flow [m/s]: about a third of the velocity of sound in water.
@@ -154,7 +168,7 @@ impl MethodError for Compressible {
 #[derive(Clone, Copy, Debug)]
 pub struct Film {
     /// density [kg/m3] and viscosity [Pa s]
-    fluid: Fluid,
+    fluid: Material,
     /// thickness [m]
     height: f64,
     /// weight along the slope [Pa/m]
@@ -166,20 +180,23 @@ pub struct Film {
 impl Model for Film {
     const INFO: ModelInfo = ModelInfo::new("thin-film");
     type Scene = BenchmarkScene;
+    type Table = FilmTable;
     type Tables = FilmTables;
 
-    fn scene(tables: &FilmTables) -> BenchmarkScene {
-        BenchmarkScene { fluid: Some((&tables.fluid).into()), grains: None }
+    fn split(tables: &FilmTables) -> (BenchmarkScene, FilmTable) {
+        let FilmTables { fluid, flow, closures, grid, check, limit, .. } = tables.clone();
+        let scene = BenchmarkScene { fluid: Some((&fluid).into()), grains: None };
+        (scene, FilmTable { geometry: flow, closures, grid, check, limit })
     }
 
-    fn build(_: &BenchmarkScene, tables: &FilmTables, faults: &mut Faults) -> Option<Self> {
-        let FilmTables { fluid, flow, closures, grid, .. } = tables;
+    fn build(scene: &BenchmarkScene, table: &FilmTable, faults: &mut Faults) -> Option<Self> {
+        let (fluid, FilmTable { geometry: flow, closures, grid, .. }) = (scene.fluid?, table);
         let Viscosity::Power { n, .. } = closures.viscosity;
         if grid.cells as f64 * n < FEWEST {
             faults.push(("grid.cells", TooCoarse { cells: grid.cells, least: (FEWEST / n).ceil() }));
         }
         let pull = 9.81 * fluid.density * flow.sine;
-        Some(Self { fluid: *fluid, height: flow.height, pull, law: closures.viscosity, cells: grid.cells })
+        Some(Self { fluid, height: flow.height, pull, law: closures.viscosity, cells: grid.cells })
     }
 }
 

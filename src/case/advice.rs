@@ -15,6 +15,8 @@ impl CaseFault for Fault {
             | Self::NotUsed { allowed, .. }
             | Self::UnknownWord { allowed, .. }
             | Self::LawMismatch { allowed, .. }
+            | Self::WhichModel { allowed, .. }
+            | Self::OtherScene { allowed, .. }
             | Self::Drives { allowed, .. } => Some(allowed.join(", ")),
             Self::Missing { allowed, .. } | Self::NotFinite { allowed, .. } | Self::OutOfRange { allowed, .. } => {
                 Some(allowed.clone())
@@ -58,6 +60,8 @@ impl CaseFault for Fault {
             Self::Empty | Self::Binary { .. } | Self::NotUtf8 { .. } => {
                 Some("`bedload new` writes a case to start from".into())
             }
+            Self::WhichModel { .. } => Some("give the table of one model, or choose one with --model".into()),
+            Self::OtherScene { .. } => Some("`bedload list models` shows what each one solves".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
             Self::LimitKey { .. } => Some("for example over = \"flow.slope=0.01:0.05:9\"".into()),
             Self::CheckLevel { column: true, .. } => Some("for example at = \"10 mm\"".into()),

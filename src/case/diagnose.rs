@@ -8,10 +8,11 @@ use super::angle::{self, Definition};
 use super::document::{Data, Document, Node};
 use super::fault::Fault;
 use super::kind::{Kind, Kinds};
-use super::schema;
 use super::violation::{Span, Violation};
 use super::wording::{choices, expected, header, shown};
+use super::{scene, schema};
 use crate::closures::catalogue;
+use crate::units::UnitError;
 
 /// What a document says, and what is wrong with it.
 pub(super) struct Diagnosis<'k> {
@@ -22,10 +23,15 @@ pub(super) struct Diagnosis<'k> {
 
 /// Reads a document as the kind of case that it names.
 pub(super) fn diagnose<'k>(document: &Document, kinds: &'k Kinds) -> Diagnosis<'k> {
-    let mut walk = Walk { kinds, kind: None, violations: Vec::new() };
+    let mut walk = Walk { kinds, kind: None, diameter: scene::diameter(document), violations: Vec::new() };
     if matches!(&document.root.data, Data::Table(entries) if entries.is_empty()) {
         walk.report(Fault::Empty, "", &document.root.value);
         return Diagnosis { case: None, violations: walk.violations };
+    }
+    if scene::is_scene(document) {
+        walk.kind = walk.choose_model(document);
+        let case = walk.kind.map(|kind| (kind, walk.value(&scene::view(document, kinds, kind), &kind.schema, "")));
+        return Diagnosis { case, violations: walk.violations };
     }
     walk.kind = walk.choose(document);
     let case = walk.kind.map(|kind| (kind, walk.value(&document.root, &kind.schema, "")));
@@ -47,14 +53,16 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, c)| c.to_owned())
 }
 
-struct Walk<'k> {
-    kinds: &'k Kinds,
+pub(super) struct Walk<'k> {
+    pub(super) kinds: &'k Kinds,
     kind: Option<&'k Kind>,
+    /// diameter of the grains \[m], the unit `d` of a length
+    diameter: Option<f64>,
     violations: Vec<Violation>,
 }
 
 impl<'k> Walk<'k> {
-    fn report(&mut self, fault: Fault, path: &str, span: &Span) {
+    pub(super) fn report(&mut self, fault: Fault, path: &str, span: &Span) {
         self.violations.push(Violation::new(fault, path.to_owned(), span.clone()));
     }
 
@@ -182,6 +190,12 @@ impl<'k> Walk<'k> {
     }
 
     fn tagged(&mut self, node: &Node, alternatives: &[(&str, &Value)], path: &str) -> Value {
+        // A law without parameters is a word.
+        if let (Data::Text(_), Some(_)) = (&node.data, self.kind.and_then(|kind| kind.scene)) {
+            let (key, value) = (node.key.clone(), node.value.clone());
+            let entries = vec![("law".to_owned(), node.clone())];
+            return self.tagged(&Node { data: Data::Table(entries), key, value }, alternatives, path);
+        }
         let Data::Table(entries) = &node.data else { return self.wrong(node, path, "a table") };
         let laws: Vec<&str> = alternatives.iter().map(|(law, _)| *law).collect();
         let law_path = join(path, "law");
@@ -191,7 +205,7 @@ impl<'k> Walk<'k> {
                     return self.table(node, schema, path);
                 }
                 let allowed = laws.iter().map(|&l| l.to_owned()).collect();
-                let fault = match (self.kind, path.strip_prefix("closures.")) {
+                let fault = match (self.kind, path.split_once("closures.").map(|(_, family)| family)) {
                     (Some(kind), Some(family)) if self.is_law(family, law) => {
                         Fault::LawMismatch { family: family.into(), law: law.clone(), model: kind.name.into(), allowed }
                     }
@@ -222,9 +236,11 @@ impl<'k> Walk<'k> {
 
     /// Whether the family has a law of this name, here or in another model.
     fn is_law(&self, family: &str, law: &str) -> bool {
-        let path = format!("/properties/closures/properties/{family}");
-        let elsewhere =
-            self.kinds.iter().filter_map(|kind| schema::alternatives(kind.schema.pointer(&path)?)).flatten();
+        let of = |kind: &'k Kind| {
+            let own = if kind.scene.is_some() { format!("/properties/{}", kind.name) } else { String::new() };
+            schema::alternatives(kind.schema.pointer(&format!("{own}/properties/closures/properties/{family}"))?)
+        };
+        let elsewhere = self.kinds.beside(self.kind).iter().filter_map(of).flatten();
         catalogue().any(|info| info.family == family && info.law == law) || elsewhere.into_iter().any(|(l, _)| l == law)
     }
 
@@ -282,8 +298,13 @@ impl<'k> Walk<'k> {
             if path.is_empty() && matches!(node.data, Data::Table(_) | Data::Array(_)) { "table" } else { "key" };
         let allowed: Vec<String> = schema::properties(schema).map(|(k, _)| k.clone()).collect();
         let child_path = join(path, name);
-        let users: Vec<String> =
-            self.kinds.iter().filter(|s| has(&s.schema, &child_path)).map(|s| s.name.to_owned()).collect();
+        let users: Vec<String> = self
+            .kinds
+            .beside(self.kind)
+            .iter()
+            .filter(|s| schema::has(&s.schema, &child_path))
+            .map(|s| s.name.to_owned())
+            .collect();
         let fault = match self.kind {
             Some(kind) if !users.is_empty() && !users.iter().any(|u| u == kind.name) => {
                 Fault::NotUsed { what, name: name.into(), model: kind.name.into(), users, allowed }
@@ -293,7 +314,7 @@ impl<'k> Walk<'k> {
                 name: name.into(),
                 place: if path.is_empty() { String::new() } else { format!(" in {}", header(path)) },
                 nearest: nearest(name, allowed.iter().map(String::as_str)),
-                elsewhere: kind.and_then(|s| elsewhere(&s.schema, name, path)),
+                elsewhere: kind.and_then(|s| schema::elsewhere(&s.schema, name, path)),
                 allowed,
             },
         };
@@ -335,7 +356,7 @@ impl<'k> Walk<'k> {
         let x = match &node.data {
             Data::Integer(i) => *i as f64,
             Data::Float(x) => *x,
-            Data::Text(text) if !unit.is_empty() => match angle::quantity(text, schema) {
+            Data::Text(text) if !unit.is_empty() => match self.quantity(text, schema) {
                 Ok(x) => x,
                 Err(error) => {
                     let meant = angle::meant(text, &error, schema);
@@ -356,6 +377,13 @@ impl<'k> Walk<'k> {
         json!(x)
     }
 
+    /// What a text says of a number; in format 2 a length may be one in diameters of the grains.
+    fn quantity(&self, text: &str, schema: &Value) -> Result<f64, UnitError> {
+        let length = schema::text(schema, "x-unit") == "m" && self.kind.is_some_and(|kind| kind.scene.is_some());
+        let scaled = self.diameter.filter(|_| length).and_then(|d| scene::diameters(text, d));
+        scaled.map_or_else(|| angle::quantity(text, schema), Ok)
+    }
+
     fn integer(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
         let (i, value) = match node.data {
             Data::Integer(i) => (i, i as f64),
@@ -374,26 +402,4 @@ impl<'k> Walk<'k> {
 
 fn join(path: &str, name: &str) -> String {
     if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") }
-}
-
-/// Whether a schema has something at `path`, in any alternative of a tagged table.
-fn has(schema: &Value, path: &str) -> bool {
-    let (first, rest) = path.split_once('.').map_or((path, None), |(a, b)| (a, Some(b)));
-    if first.bytes().all(|b| b.is_ascii_digit()) {
-        return schema.get("items").is_some_and(|items| rest.is_none_or(|rest| has(items, rest)));
-    }
-    let here = schema.get("properties").and_then(|p| p.get(first));
-    here.is_some_and(|s| rest.is_none_or(|rest| has(s, rest)))
-        || schema::alternatives(schema).is_some_and(|a| a.iter().any(|(_, s)| has(s, path)))
-}
-
-/// The table of the kind that has a key of this name, where it is not the table of `path`.
-fn elsewhere(schema: &Value, name: &str, path: &str) -> Option<String> {
-    schema::properties(schema)
-        .filter(|(table, s)| table.as_str() != path && schema::properties(s).any(|(k, _)| k == name))
-        .map(|(table, s)| if s.get("items").is_some() { format!("[[{table}]]") } else { format!("[{table}]") })
-        .next()
-        .or_else(|| {
-            schema::properties(schema).any(|(k, _)| k == name && !path.is_empty()).then(|| "the top of the file".into())
-        })
 }

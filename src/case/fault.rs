@@ -102,6 +102,24 @@ pub enum Fault {
         /// what it may be
         allowed: String,
     },
+    /// A case of format 2 with several models or none, or a model that does not exist.
+    #[error("{}", which_model(given, allowed))]
+    WhichModel {
+        /// the model that was asked for; empty where none was
+        given: String,
+        /// models that there are
+        allowed: Vec<String>,
+    },
+    /// A model that solves another kind of flow.
+    #[error("{model} does not solve a scene of the kind \"{scene}\"")]
+    OtherScene {
+        /// the model
+        model: String,
+        /// the kind of flow of the case
+        scene: String,
+        /// models that solve it
+        allowed: Vec<String>,
+    },
     /// A value of another type.
     #[error("{name} is {found}, not {expected}")]
     WrongType {
@@ -231,6 +249,8 @@ codes!(Fault {
     Self::Unit { .. } => "bad-quantity",
     Self::OutOfRange { .. } => "out-of-range",
     Self::UnknownWord { .. } => "unknown-word",
+    Self::WhichModel { .. } => "which-model",
+    Self::OtherScene { .. } => "other-scene",
     Self::Drives { .. } => "drives",
     Self::TooSteep { .. } => "too-steep",
     Self::LawMismatch { .. } => "law-mismatch",
@@ -239,3 +259,13 @@ codes!(Fault {
     Self::LimitHolds => "limit-holds",
     Self::CheckLevel { .. } => "check-level",
 });
+
+fn which_model(given: &str, allowed: &[String]) -> String {
+    if !given.is_empty() {
+        return format!("there is no model \"{given}\"");
+    }
+    match allowed.len() {
+        0 => "no model solves this kind of flow".into(),
+        n => format!("the case does not say which of {n} models solves it"),
+    }
+}

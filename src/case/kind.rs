@@ -8,7 +8,7 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
+use serde_json::{Map, Value, json};
 
 use super::checks::{Check, Limit};
 use super::tables::About;
@@ -21,6 +21,52 @@ pub trait Tables: Clone + Debug + Serialize + DeserializeOwned + JsonSchema + Se
     fn checks(&self) -> &[Check];
     /// Where the method of the case ends.
     fn limit(&self) -> Option<&Limit>;
+}
+
+/// The tables of a kind of flow, whatever the model: fluid, grains, bed, flow.
+pub trait FlowTables: Clone + Debug + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static {
+    /// The word after `scene =`.
+    const KIND: &'static str;
+}
+
+/// The table of a model: what a case says besides the flow.
+pub trait Part: Clone + Debug + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static {
+    /// Numbers that the model must give.
+    fn checks(&self) -> &[Check];
+    /// Where its method ends.
+    fn limit(&self) -> Option<&Limit>;
+}
+
+/// Declares the table of a model in a case of format 2: a struct with these keys, its checks and its limit.
+///
+/// The doc line of the struct is the description of the model.
+#[macro_export]
+macro_rules! part {
+    ($(#[$doc:meta])* pub struct $name:ident $(<$law:ident: $role:ident = $usual:ty>)? { $($(#[$attribute:meta])* $key:ident: $type:ty,)* }) => {
+        #[derive(Clone, Debug, PartialEq, ::serde::Serialize, ::serde::Deserialize, ::schemars::JsonSchema)]
+        #[serde(bound = "")]
+        #[schemars(bound = "")]
+        $(#[$doc])*
+        pub struct $name $(<$law: $role = $usual>)? {
+            $($(#[$attribute])* pub $key: $type,)*
+            /// Numbers that the model must give.
+            #[serde(default, skip_serializing_if = "Vec::is_empty")]
+            pub check: Vec<$crate::case::checks::Check>,
+            /// Where the method ends.
+            #[serde(default, skip_serializing_if = "Option::is_none")]
+            pub limit: Option<$crate::case::checks::Limit>,
+        }
+
+        impl $(<$law: $role>)? $crate::case::Part for $name $(<$law>)? {
+            fn checks(&self) -> &[$crate::case::checks::Check] {
+                &self.check
+            }
+
+            fn limit(&self) -> Option<&$crate::case::checks::Limit> {
+                self.limit.as_ref()
+            }
+        }
+    };
 }
 
 /// Declares the tables of a model: a struct with these tables and those of every case.
@@ -84,22 +130,50 @@ pub(super) struct Content {
 pub struct Kind {
     /// `kind` or `kind/solution`
     pub name: &'static str,
+    /// the kind of flow in a case of format 2; `None` in format 1
+    pub(super) scene: Option<&'static str>,
     /// its JSON Schema
     pub(super) schema: Value,
-    pub(super) read: fn(Value) -> Result<Content, serde_json::Error>,
+    read: fn(&'static str, Value) -> Result<Content, serde_json::Error>,
 }
 
 impl Kind {
-    /// The cases with the tables `T`, of a model called `name`.
+    /// The cases of format 1 with the tables `T`, of a model called `name`.
     #[must_use]
     pub fn of<T: Tables>(name: &'static str) -> Self {
-        let settings = SchemaSettings::draft2020_12().with(|s| {
-            s.inline_subschemas = true;
-            s.meta_schema = None;
+        Self { name, scene: None, schema: schema_of::<T>(), read: read::<T> }
+    }
+
+    /// The cases of format 2 with the flow `S` and a table `T` of a model called `name`.
+    #[must_use]
+    pub fn of_scene<S: FlowTables, T: Part>(name: &'static str) -> Self {
+        let (flow, mut own) = (schema_of::<S>(), schema_of::<T>());
+        let of = |schema: &Value, keyword: &str| schema.get(keyword).cloned().unwrap_or_default();
+        let mut properties = Map::new();
+        let format =
+            json!({ "type": "integer", "minimum": 2, "maximum": 2, "description": "Version of the file format." });
+        properties.insert("format".into(), format);
+        properties.insert(SCENE.into(), json!({ "type": "string", "const": S::KIND }));
+        properties.insert("case".into(), schema_of::<About>());
+        properties.extend(of(&flow, "properties").as_object().cloned().unwrap_or_default());
+        let description = of(&own, "description");
+        let mut required = vec![json!("format"), json!(SCENE), json!("case")];
+        required.extend(of(&flow, "required").as_array().cloned().unwrap_or_default());
+        if own.get("required").is_some() {
+            required.push(json!(name));
+        }
+        own["title"] = name.into();
+        properties.insert(name.into(), own);
+        let mut schema = json!({
+            "title": name, "description": description, "type": "object", "properties": properties, "required": required,
         });
-        let mut schema = settings.into_generator().into_root_schema_for::<T>().to_value();
         close(&mut schema);
-        Self { name, schema, read: read::<T> }
+        Self { name, scene: Some(S::KIND), schema, read: read_scene::<S, T> }
+    }
+
+    /// A checked document as what it says.
+    pub(super) fn content(&self, document: Value) -> Result<Content, serde_json::Error> {
+        (self.read)(self.name, document)
     }
 
     /// `kind` and, if there is one, `solution`.
@@ -129,8 +203,34 @@ fn close(schema: &mut Value) {
     }
 }
 
+fn schema_of<T: JsonSchema>() -> Value {
+    let settings = SchemaSettings::draft2020_12().with(|s| {
+        s.inline_subschemas = true;
+        s.meta_schema = None;
+    });
+    let mut schema = settings.into_generator().into_root_schema_for::<T>().to_value();
+    close(&mut schema);
+    schema
+}
+
+/// A checked case of format 2 as tables, and back with every default filled in.
+fn read_scene<S: FlowTables, T: Part>(name: &'static str, mut document: Value) -> Result<Content, serde_json::Error> {
+    let about: About = serde_json::from_value(document["case"].clone())?;
+    let own = document.as_object_mut().and_then(|tables| tables.shift_remove(name)).unwrap_or_else(|| json!({}));
+    let (flow, own): (S, T) = (serde_json::from_value(document)?, serde_json::from_value(own)?);
+    let mut tables = Map::new();
+    tables.insert("format".into(), json!(2));
+    tables.insert(SCENE.into(), S::KIND.into());
+    tables.insert("case".into(), serde_json::to_value(&about)?);
+    tables.extend(serde_json::to_value(&flow)?.as_object().cloned().unwrap_or_default());
+    tables.insert(name.into(), serde_json::to_value(&own)?);
+    let tables = Value::Object(tables);
+    let (checks, limit) = (own.checks().to_vec(), own.limit().cloned());
+    Ok(Content { resolved: text(tables.clone()), about, checks, limit, tables })
+}
+
 /// A checked document as tables, and back with every default filled in.
-fn read<T: Tables>(document: Value) -> Result<Content, serde_json::Error> {
+fn read<T: Tables>(_: &'static str, document: Value) -> Result<Content, serde_json::Error> {
     let tables: T = serde_json::from_value(document)?;
     let values = serde_json::to_value(&tables)?;
     Ok(Content {
@@ -161,28 +261,59 @@ fn drop_nulls(value: &mut Value) {
     }
 }
 
+/// The key that names the kind of flow, which only cases of format 2 have.
+pub(super) const SCENE: &str = "scene";
+/// Tables that every model shares, and what stands beside them: what is none of these in `--set` is a key of the model.
+pub(super) const SHARED: [&str; 7] = ["format", SCENE, "case", "fluid", "grains", "bed", "flow"];
+
 /// All kinds of case that a program knows, in the order of its models.
 #[derive(Clone, Debug, Default)]
-pub struct Kinds(pub(super) Vec<Kind>);
+pub struct Kinds {
+    first: Vec<Kind>,
+    scenes: Vec<Kind>,
+    /// the model of a case of format 2 that has several
+    pub(super) chosen: Option<String>,
+}
 
 impl Kinds {
     /// These kinds.
     #[must_use]
     pub fn new(kinds: Vec<Kind>) -> Self {
-        Self(kinds)
+        let mut all = Self::default();
+        kinds.into_iter().for_each(|kind| all.push(kind));
+        all
     }
 
     /// One more kind, in place of one of the same name.
     pub fn push(&mut self, kind: Kind) {
-        self.0.retain(|known| known.name != kind.name);
-        self.0.push(kind);
+        let kinds = if kind.scene.is_some() { &mut self.scenes } else { &mut self.first };
+        kinds.retain(|known| known.name != kind.name);
+        kinds.push(kind);
     }
 
+    /// The same, where a case of format 2 with several models is that of `model`.
+    #[must_use]
+    pub fn choosing(mut self, model: &str) -> Self {
+        self.chosen = Some(model.to_owned());
+        self
+    }
+
+    /// Those of format 1.
     pub(super) fn iter(&self) -> impl Iterator<Item = &Kind> {
-        self.0.iter()
+        self.first.iter()
     }
 
     pub(super) fn first(&self) -> Option<&Kind> {
-        self.0.first()
+        self.first.first()
+    }
+
+    /// Those of format 2.
+    pub(super) fn scenes(&self) -> impl Iterator<Item = &Kind> {
+        self.scenes.iter()
+    }
+
+    /// Those of the format of `kind`.
+    pub(super) fn beside(&self, kind: Option<&Kind>) -> &[Kind] {
+        if kind.is_some_and(|kind| kind.scene.is_some()) { &self.scenes } else { &self.first }
     }
 }

@@ -10,7 +10,7 @@ use super::document::{Document, Text};
 use super::fault::Fault;
 use super::kind::{Content, Kind};
 use super::violation::{Span, Violation};
-use super::{Case, CaseError, Kinds, angle, shipped};
+use super::{Case, CaseError, Kinds, angle, scene, shipped};
 
 /// Largest accepted case file \[bytes].
 const LIMIT: u64 = 1 << 20;
@@ -50,7 +50,9 @@ impl Case {
     ) -> Result<Self, CaseError> {
         let (mut document, mut violations) = Document::parse(source, content);
         let broken: BTreeSet<usize> = violations.iter().filter_map(|v| document.line(&v.spans[0])).collect();
+        let own = scene::chosen(&document, kinds);
         for argument in overrides {
+            let argument = &own.map_or_else(|| argument.clone(), |model| scene::within(model, argument));
             if let Err(violation) = document.set(argument) {
                 violations.push(violation);
             }
@@ -65,7 +67,7 @@ impl Case {
             _ => document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)),
         };
         violations.extend(more.into_iter().filter(|v| broken.is_empty() || !unreadable(v)));
-        let built = found.filter(|_| readable).map(|(kind, value)| (kind, (kind.read)(value)));
+        let built = found.filter(|_| readable).map(|(kind, value)| (kind, kind.content(value)));
         let case = |kind: &Kind, content: Content, document| Self {
             name: name.into(),
             source: source.into(),

@@ -127,3 +127,25 @@ pub(super) fn inside(schema: &Value, x: f64) -> bool {
         && bound("exclusiveMaximum").is_none_or(|b| x < b)
         && bound("maximum").is_none_or(|b| x <= b)
 }
+
+/// Whether a schema has something at `path`, in any alternative of a tagged table.
+pub(super) fn has(schema: &Value, path: &str) -> bool {
+    let (first, rest) = path.split_once('.').map_or((path, None), |(a, b)| (a, Some(b)));
+    if first.bytes().all(|b| b.is_ascii_digit()) {
+        return schema.get("items").is_some_and(|items| rest.is_none_or(|rest| has(items, rest)));
+    }
+    let here = schema.get("properties").and_then(|p| p.get(first));
+    here.is_some_and(|s| rest.is_none_or(|rest| has(s, rest)))
+        || alternatives(schema).is_some_and(|a| a.iter().any(|(_, s)| has(s, path)))
+}
+
+/// The table of the kind that has a key of this name, where it is not the table of `path`.
+pub(super) fn elsewhere(schema: &Value, name: &str, path: &str) -> Option<String> {
+    properties(schema)
+        .filter(|(table, s)| table.as_str() != path && properties(s).any(|(k, _)| k == name))
+        .map(|(table, s)| if s.get("items").is_some() { format!("[[{table}]]") } else { format!("[{table}]") })
+        .next()
+        .or_else(|| {
+            properties(schema).any(|(k, _)| k == name && !path.is_empty()).then(|| "the top of the file".into())
+        })
+}

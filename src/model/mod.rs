@@ -16,7 +16,7 @@ mod study;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::case::{CaseFault, Tables};
+use crate::case::{CaseFault, FlowTables, Part, Tables};
 use crate::closures::Info;
 use crate::result::{CheckpointError, Context, Failure, Figure, Outcome};
 use crate::scene::Scene;
@@ -54,8 +54,10 @@ impl Faults {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct ModelInfo {
-    /// `kind` or `kind/solution`, as in `[model]` of a case
+    /// `kind` or `kind/solution`, as in `[model]` of a case of format 1
     pub name: &'static str,
+    /// its table in a case of format 2
+    pub table: &'static str,
     /// whether its results are means of fluctuating quantities
     pub stochastic: bool,
 }
@@ -64,7 +66,7 @@ impl ModelInfo {
     /// A model of this name whose results do not fluctuate.
     #[must_use]
     pub const fn new(name: &'static str) -> Self {
-        Self { name, stochastic: false }
+        Self { name, table: name, stochastic: false }
     }
 
     /// The same, whose results are means of fluctuating quantities.
@@ -79,16 +81,17 @@ pub trait Model: Solve + Sized {
     /// Its name.
     const INFO: ModelInfo;
     /// The kind of flow that it solves: a scene of [`crate::scene`].
-    type Scene: Into<Scene>;
-    /// The tables of its cases.
+    type Scene: FlowTables + Into<Scene>;
+    /// Its table: how the flow is solved.
+    type Table: Part;
+    /// The tables of its cases of format 1.
     type Tables: Tables;
 
-    /// The flow that the tables of a case describe.
-    fn scene(tables: &Self::Tables) -> Self::Scene;
+    /// The flow and the table of the model that the tables of a case of format 1 hold.
+    fn split(tables: &Self::Tables) -> (Self::Scene, Self::Table);
 
-    /// Checks what no schema can, values against each other, and makes the problem: the flow from the scene, how it is solved
-    /// from the tables. `None` where a fault leaves none.
-    fn build(scene: &Self::Scene, tables: &Self::Tables, faults: &mut Faults) -> Option<Self>;
+    /// Checks what no schema can, values against each other, and makes the problem. `None` where a fault leaves none.
+    fn build(scene: &Self::Scene, table: &Self::Table, faults: &mut Faults) -> Option<Self>;
 
     /// The case with which this model would answer `flow` to the relative error `tolerance`, if it can.
     fn offer(_flow: &Flow, _tolerance: f64) -> Option<Offer> {

@@ -37,9 +37,9 @@ pub struct Problem {
 pub type Checked = (Case, Problem);
 
 impl Problem {
-    pub(super) fn new(case: &Case, scene: Scene, stochastic: bool, solver: Arc<dyn Solve>) -> Self {
+    pub(super) fn new(case: &Case, scene: Scene, info: ModelInfo, solver: Arc<dyn Solve>) -> Self {
         let (name, title) = (case.name.clone(), case.about().title.clone());
-        Self { name, title, kind: case.model, stochastic, scene: Some(scene), solver }
+        Self { name, title, kind: info.name, stochastic: info.stochastic, scene: Some(scene), solver }
     }
 
     /// A problem that no case states.

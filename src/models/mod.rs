@@ -8,13 +8,27 @@ mod tests;
 mod touching;
 mod yielding;
 
+use crate::case::Fault;
 use crate::dem::GrainBed;
-use crate::model::{Entry, OnMesh, Registry};
+use crate::model::{Entry, Faults, OnMesh, Registry};
 
 pub use bed_error::BedError;
 pub use bed_fault::BedFault;
-use touching::{of_scene, touching};
+use touching::touching;
+pub use touching::{Spring, SpringLaw};
 pub use yielding::{RegularisationSize, RegularisationTable, YieldGrid};
+
+/// A value of the flow that this model cannot do without.
+fn needed(path: &str, value: Option<f64>, faults: &mut Faults) -> Option<f64> {
+    if value.is_none() {
+        let (table, key) = path.split_once('.').unwrap_or(("", path));
+        let name = format!("{key} in [{table}]");
+        let description = "this model needs it".to_owned();
+        faults
+            .push((path, Fault::Missing { what: "key", name, description, allowed: "a number with its unit".into() }));
+    }
+    value
+}
 
 /// The models of a program, from least to most: a line each, its folder and its types. `also` adds to a folder that is named
 /// already.

@@ -26,6 +26,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
+use crate::case::FlowTables;
 use crate::result::{SceneRecord, flatten};
 
 /// The grains.
@@ -75,8 +76,12 @@ pub enum Scene {
 }
 
 macro_rules! kinds {
-    ($($kind:ident($scene:ident)),*) => {
-        $(impl From<$scene> for Scene {
+    ($($kind:ident($scene:ident) = $word:literal),*) => {
+        $(impl FlowTables for $scene {
+            const KIND: &'static str = $word;
+        }
+
+        impl From<$scene> for Scene {
             fn from(scene: $scene) -> Self {
                 Self::$kind(scene)
             }
@@ -84,17 +89,22 @@ macro_rules! kinds {
     };
 }
 
-kinds!(Bed(BedScene), Channel(ChannelScene), Granular(GranularScene), Benchmark(BenchmarkScene));
+kinds!(
+    Bed(BedScene) = "bed",
+    Channel(ChannelScene) = "channel",
+    Granular(GranularScene) = "granular",
+    Benchmark(BenchmarkScene) = "benchmark"
+);
 
 impl Scene {
     /// `bed`, `channel`, `granular` or `benchmark`.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Bed(_) => "bed",
-            Self::Channel(_) => "channel",
-            Self::Granular(_) => "granular",
-            Self::Benchmark(_) => "benchmark",
+            Self::Bed(_) => BedScene::KIND,
+            Self::Channel(_) => ChannelScene::KIND,
+            Self::Granular(_) => GranularScene::KIND,
+            Self::Benchmark(_) => BenchmarkScene::KIND,
         }
     }
 

@@ -35,6 +35,7 @@ mod places;
 mod premises;
 mod private;
 mod report;
+mod scenes;
 mod schema;
 mod sheet;
 mod sheet_statements;

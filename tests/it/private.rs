@@ -50,9 +50,9 @@ use bedload::prelude::{builtin, checked, CaseError, ModelInfo};
 pub type All = (Coupled, Duct, GrainBed, OnMesh<RegularisedBed>, OnMesh<SheetFlow>, OnMesh<TwoFluid>, Domain);
 pub type Grains<L> = Engine<L>;
 pub const INFO: ModelInfo = ModelInfo::new(\"mine\");
-pub fn problem<M: Model>(tables: &M::Tables) -> Result<M, CaseError> {
+pub fn problem<M: Model>(scene: &M::Scene, table: &M::Table) -> Result<M, CaseError> {
     assert!(builtin().entries().count() > 10);
-    checked::<M>(tables)
+    checked::<M>(\"mine\", scene, table)
 }
 ";
     assert!(compile(code).is_none_or(|answer| answer.is_empty()), "{:?}", compile(code));

@@ -20,6 +20,15 @@ role! {
 }
 
 impl Suspension {
+    /// The same law without a settling velocity of its own: it is that of the grains.
+    #[must_use]
+    pub fn of_grains(self) -> Self {
+        match self {
+            Self::Rouse(_) => Self::Rouse(Rouse { settling_velocity: None }),
+            Self::None => self,
+        }
+    }
+
     /// The same law for grains that settle at `w_s` [m/s].
     #[must_use]
     pub fn settling_at(self, w_s: f64) -> Self {

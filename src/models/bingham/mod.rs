@@ -15,7 +15,7 @@ use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::ChannelScene;
-use crate::tables;
+use crate::{part, tables};
 
 /// The model: a Bingham fluid between two planes, solved numerically.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -48,6 +48,18 @@ tables! {
     }
 }
 
+part! {
+    /// Bingham fluid between two planes: regularised, or with the exact yield.
+    pub struct Bingham {
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the solver.
+        #[serde(default)]
+        grid: YieldGrid,
+    }
+}
+
 /// A Bingham fluid that is solved numerically.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegularisedPlane {
@@ -60,15 +72,17 @@ pub struct RegularisedPlane {
 }
 
 impl Model for OnMesh<RegularisedPlane> {
-    const INFO: ModelInfo = ModelInfo { name: "bingham", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "bingham", table: "bingham", stochastic: false };
     type Scene = ChannelScene;
+    type Table = Bingham;
     type Tables = BinghamTables;
 
-    fn scene(tables: &BinghamTables) -> ChannelScene {
-        tables.flow.of(&tables.fluid)
+    fn split(tables: &BinghamTables) -> (ChannelScene, Bingham) {
+        let BinghamTables { fluid, flow, regularisation, grid, check, limit, .. } = tables.clone();
+        (flow.of(&fluid), Bingham { regularisation, grid, check, limit })
     }
 
-    fn build(scene: &ChannelScene, tables: &BinghamTables, faults: &mut Faults) -> Option<Self> {
+    fn build(scene: &ChannelScene, tables: &Bingham, faults: &mut Faults) -> Option<Self> {
         let size = size(&tables.regularisation, faults);
         let plane = plane(scene)?;
         let lambda = size?.to_scaled(plane.shear_scale());

@@ -13,7 +13,9 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::role::Only;
 use crate::closures::side_wall::SideWall;
 use crate::dem::{Bottom, Discrete};
-use crate::tables;
+use crate::models::Spring;
+use crate::models::grains::case::GrainCell;
+use crate::{part, tables};
 
 /// A bed of grains that is let fall into place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -253,6 +255,54 @@ tables! {
         /// Laws.
         closures: CoupledClosures,
         /// How grains are moved, how often the fluid is solved, and what is averaged.
+        discrete: CoupledDiscrete,
+    }
+}
+
+/// Laws of the coupled flow; friction and restitution are those of the grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct CoupledLaws {
+    /// Contact of two grains, or of a grain with a wall.
+    pub contact: Spring,
+    /// Drag on single grains.
+    pub drag: Only<DallavalleGrain>,
+    /// Mixing length of the turbulence.
+    pub mixing_length: MixingLength,
+    /// Effective viscosity of the mixture.
+    #[serde(default = "clear")]
+    pub mixture_viscosity: MixtureViscosity,
+    /// Friction of the fluid on the side walls.
+    #[serde(default)]
+    pub side_wall: SideWall,
+    /// Eddies that a grain meets.
+    #[serde(default)]
+    pub fluctuation: Fluctuation,
+}
+
+part! {
+    /// Grains with friction, grain by grain, in a turbulent fluid of one dimension that drives them.
+    pub struct CoupledTable {
+        /// Layers of mobile grains N_l: their number is layers times the diameters along the flow, times those across it that the
+        /// width has room for; left out, those of the bed of the scene, thickness phi/(pi d/6).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+        layers: Option<f64>,
+        /// What the bed rests on.
+        #[serde(default)]
+        bottom: Bottom,
+        /// Largest elevation of the fixed grains over their mean, on bottom = "steps"; a third of the diameter where it is left out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "m", "minimum" = 0.0, "maximum" = 1.0))]
+        relief: Option<f64>,
+        /// Step between the elevations of the fixed grains; the relief itself where it is left out.
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
+        relief_step: Option<f64>,
+        /// The cell.
+        cell: GrainCell,
+        /// Laws.
+        closures: CoupledLaws,
+        /// How grains and fluid are stepped.
         discrete: CoupledDiscrete,
     }
 }

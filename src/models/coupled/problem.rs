@@ -1,6 +1,6 @@
 //! Problems of grains in a fluid.
 
-use super::case::{CoupledDiscrete, CoupledTables, FluidScheme};
+use super::case::{CoupledClosures, CoupledDiscrete, CoupledLaws, CoupledTable, CoupledTables, FluidScheme};
 use super::{advice, equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::contact::linear_spring;
@@ -15,7 +15,8 @@ use crate::dem::{Bottom, GrainBed};
 use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
 use crate::models::BedFault;
 use crate::models::coupled::CoupledFault;
-use crate::models::{of_scene, touching};
+use crate::models::grains::case::{GrainCell, layers};
+use crate::models::{needed, touching};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Figure, Outcome};
 use crate::scene::{Bed, BedFlow, BedScene, Top};
@@ -104,32 +105,50 @@ impl Coupled {
 const MAX_GRAINS: f64 = 2e7;
 
 impl Model for Coupled {
-    const INFO: ModelInfo = ModelInfo { name: "coupled", stochastic: true };
+    const INFO: ModelInfo = ModelInfo { name: "coupled", table: "coupled", stochastic: true };
     type Scene = BedScene;
+    type Table = CoupledTable;
     type Tables = CoupledTables;
 
-    fn scene(tables: &CoupledTables) -> BedScene {
-        let CoupledTables { fluid, grains, flow, closures, .. } = tables;
-        BedScene {
-            fluid: *fluid,
-            grains: touching(grains, &closures.contact.0),
+    fn split(tables: &CoupledTables) -> (BedScene, CoupledTable) {
+        let CoupledTables { fluid, grains, bed, flow, closures, discrete, check, limit, .. } = tables.clone();
+        let (width, across) = if flow.side_walls { (Some(flow.width), None) } else { (None, Some(flow.width)) };
+        let (grains, contact) = touching(&grains, &closures.contact.0);
+        let top = flow.height.map_or(Top::FreeSurface, |height| Top::OverFixedGrains { height });
+        let scene = BedScene {
+            fluid,
+            grains,
             bed: Bed::default(),
             flow: BedFlow {
                 depth: flow.depth,
-                width: flow.side_walls.then_some(flow.width),
+                width,
                 slope: Some(flow.slope),
                 slope_definition: Some(flow.slope_definition),
-                ..BedFlow::new(
-                    flow.height.map_or(Top::FreeSurface, |height| Top::OverFixedGrains { height }),
-                    flow.gravity,
-                )
+                ..BedFlow::new(top, flow.gravity)
             },
-        }
+        };
+        let CoupledClosures { drag, mixing_length, mixture_viscosity, side_wall, fluctuation, .. } = closures;
+        let table = CoupledTable {
+            layers: Some(bed.layers),
+            bottom: bed.bottom,
+            relief: bed.relief,
+            relief_step: bed.relief_step,
+            cell: GrainCell { length: flow.length, width: across },
+            closures: CoupledLaws { contact, drag, mixing_length, mixture_viscosity, side_wall, fluctuation },
+            discrete,
+            check,
+            limit,
+        };
+        (scene, table)
     }
 
-    fn build(scene: &BedScene, tables: &CoupledTables, faults: &mut Faults) -> Option<Self> {
-        let (fluid, grains) = (&scene.fluid, &scene.grains);
-        let CoupledTables { bed, flow, closures, discrete, .. } = tables;
+    fn build(scene: &BedScene, table: &CoupledTable, faults: &mut Faults) -> Option<Self> {
+        let (fluid, grains, side_walls) = (&scene.fluid, &scene.grains, scene.flow.width.is_some());
+        let CoupledTable { cell, closures, discrete, .. } = table;
+        let contact = closures.contact.of(grains, faults);
+        let layers = layers(table.layers, &scene.bed, grains.diameter, faults);
+        let width = cell.across(scene.flow.width, faults);
+        needed("flow.slope", scene.flow.slope, faults);
         let beta = scene.flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok().flatten();
         let d = grains.diameter;
         if grains.density <= fluid.density {
@@ -145,24 +164,27 @@ impl Model for Coupled {
                 None
             }
         };
-        let across = if flow.side_walls { (flow.width / d).floor() } else { flow.width / d };
-        let count = bed.layers * (flow.length / d) * across.max(1.0);
+        let (layers, width) = (layers?, width?);
+        let across = if side_walls { (width / d).floor() } else { width / d };
+        let count = layers * (cell.length / d) * across.max(1.0);
         let mut within = |path, name: &'static str, value: f64, least: f64, most: f64| {
             if !(least..=most).contains(&value) {
                 faults.push((path, BedFault::GrainRoom { name, value, least, most }));
             }
         };
-        within("flow.length", "flow.length", flow.length, 4.0 * d, 1e3);
-        within("flow.width", "flow.width", flow.width, if flow.side_walls { d } else { 4.0 * d }, 1e3);
+        within("flow.length", "flow.length", cell.length, 4.0 * d, 1e3);
+        within("flow.width", "flow.width", width, if side_walls { d } else { 4.0 * d }, 1e3);
         within("bed.layers", "the number of mobile grains", count, 1.0, MAX_GRAINS);
-        let relief =
-            Relief { largest: bed.relief.unwrap_or(d / 3.0), step: bed.relief_step.or(bed.relief).unwrap_or(d / 3.0) };
-        if bed.bottom == Bottom::Steps {
+        let relief = Relief {
+            largest: table.relief.unwrap_or(d / 3.0),
+            step: table.relief_step.or(table.relief).unwrap_or(d / 3.0),
+        };
+        if table.bottom == Bottom::Steps {
             within("bed.relief", "bed.relief", relief.largest, 0.0, d);
         }
         let CoupledDiscrete { coupling_period, sample_period, duration, .. } = *discrete;
         within("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
-        if closures.side_wall != SideWall::None && !flow.side_walls {
+        if closures.side_wall != SideWall::None && !side_walls {
             let fault = Fault::LawMismatch {
                 family: "side_wall".into(),
                 law: closures.side_wall.info().law.into(),
@@ -171,20 +193,20 @@ impl Model for Coupled {
             };
             faults.push(("closures.side_wall.law", fault));
         }
-        let (contact, Only(drag)) = (of_scene(closures.contact.0, grains)?, closures.drag);
+        let Only(drag) = closures.drag;
         let mobile = if (1.0..=MAX_GRAINS).contains(&count) { count.round() as usize } else { 1 };
         Some(Self {
             bed: GrainBed {
                 d,
                 rho_p: grains.density,
                 mobile,
-                bottom: bed.bottom,
-                size: [flow.length, flow.width],
-                side_walls: scene.flow.width.is_some(),
+                bottom: table.bottom,
+                size: [cell.length, width],
+                side_walls,
                 smooth_walls: false,
                 beta: beta?,
                 g: scene.flow.gravity,
-                contact,
+                contact: contact?,
                 discrete: discrete.grains(),
             },
             relief,

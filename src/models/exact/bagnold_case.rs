@@ -13,7 +13,7 @@ use crate::models::BedFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::{self, GranularFlow, GranularScene};
-use crate::tables;
+use crate::{part, tables};
 
 /// A film of grains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -81,6 +81,17 @@ tables! {
     }
 }
 
+part! {
+    /// Dry grains down a slope, in closed form.
+    pub struct BagnoldFilm {
+        /// Laws.
+        closures: FilmClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
+    }
+}
+
 /// Dry grains that flow down a slope. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GranularFilm {
@@ -101,22 +112,24 @@ pub struct GranularFilm {
 }
 
 impl Model for OnMesh<GranularFilm> {
-    const INFO: ModelInfo = ModelInfo { name: "exact/bagnold-film", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "exact/bagnold-film", table: "bagnold-film", stochastic: false };
     type Scene = GranularScene;
+    type Table = BagnoldFilm;
     type Tables = BagnoldFilmTables;
 
-    fn scene(tables: &BagnoldFilmTables) -> GranularScene {
-        let BagnoldFilmTables { grains, bed, flow, .. } = tables;
-        let FilmFlow { height, slope, slope_definition, gravity } = *flow;
-        GranularScene {
+    fn split(tables: &BagnoldFilmTables) -> (GranularScene, BagnoldFilm) {
+        let BagnoldFilmTables { grains, bed, flow, closures, grid, check, limit, .. } = tables.clone();
+        let FilmFlow { height, slope, slope_definition, gravity } = flow;
+        let scene = GranularScene {
             grains: scene::Grains::new(grains.diameter, grains.density),
             bed: scene::Bed { thickness: Some(height), phi: Some(bed.phi) },
             flow: GranularFlow { slope, slope_definition, gravity, width: None },
-        }
+        };
+        (scene, BagnoldFilm { closures, grid, check, limit })
     }
 
-    fn build(scene: &GranularScene, tables: &BagnoldFilmTables, faults: &mut Faults) -> Option<Self> {
-        let (GranularScene { grains, bed, flow }, BagnoldFilmTables { closures, grid, .. }) = (scene, tables);
+    fn build(scene: &GranularScene, table: &BagnoldFilm, faults: &mut Faults) -> Option<Self> {
+        let (GranularScene { grains, bed, flow }, BagnoldFilm { closures, grid, .. }) = (scene, table);
         let beta = flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let friction = closures.friction.0;
         if friction.mu_2 <= friction.mu_s {

@@ -10,7 +10,7 @@ use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::{ChannelFlow, ChannelScene};
-use crate::tables;
+use crate::{part, tables};
 
 /// A flow between two planes. Exactly one drive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -57,6 +57,15 @@ tables! {
         flow: PlaneFlow,
         /// The model.
         model: BinghamModel,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
+    }
+}
+
+part! {
+    /// Bingham fluid between two planes, in closed form.
+    pub struct BinghamExact {
         /// Levels of the profile.
         #[serde(default)]
         grid: Grid,
@@ -121,17 +130,19 @@ pub(in crate::models) fn plane(scene: &ChannelScene) -> Option<BinghamPlane> {
 }
 
 impl Model for OnMesh<BinghamPlane> {
-    const INFO: ModelInfo = ModelInfo { name: "exact/bingham-plane", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "exact/bingham-plane", table: "bingham-exact", stochastic: false };
     type Scene = ChannelScene;
+    type Table = BinghamExact;
     type Tables = BinghamPlaneTables;
 
-    fn scene(tables: &BinghamPlaneTables) -> ChannelScene {
-        tables.flow.of(&tables.fluid)
+    fn split(tables: &BinghamPlaneTables) -> (ChannelScene, BinghamExact) {
+        let BinghamPlaneTables { fluid, flow, grid, check, limit, .. } = tables.clone();
+        (flow.of(&fluid), BinghamExact { grid, check, limit })
     }
 
-    fn build(scene: &ChannelScene, tables: &BinghamPlaneTables, _: &mut Faults) -> Option<Self> {
+    fn build(scene: &ChannelScene, table: &BinghamExact, _: &mut Faults) -> Option<Self> {
         let problem = plane(scene)?;
-        Some(Self { problem, cells: tables.grid.cells })
+        Some(Self { problem, cells: table.grid.cells })
     }
 }
 

@@ -14,8 +14,8 @@ use crate::models::exact::ExactFault;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::{ChannelFlow, ChannelScene};
-use crate::tables;
 use crate::units::significant;
+use crate::{part, tables};
 
 /// Shields number at which the first grains move: intercept of Q*^(2/3), with eddies (docs/coupled.md).
 const ONSET: f64 = 0.045;
@@ -72,6 +72,17 @@ tables! {
     }
 }
 
+part! {
+    /// Turbulent layer of constant stress over a rough wall, in closed form.
+    pub struct LogLaw {
+        /// Laws.
+        closures: WallClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
+    }
+}
+
 /// A turbulent layer of constant stress over a rough wall. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoughWall {
@@ -90,20 +101,22 @@ pub struct RoughWall {
 }
 
 impl Model for OnMesh<RoughWall> {
-    const INFO: ModelInfo = ModelInfo { name: "exact/log-law", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "exact/log-law", table: "log-law", stochastic: false };
     type Scene = ChannelScene;
+    type Table = LogLaw;
     type Tables = LogLawTables;
 
-    fn scene(tables: &LogLawTables) -> ChannelScene {
-        let LogLawTables { fluid, flow, .. } = tables;
-        ChannelScene {
-            fluid: fluid.into(),
+    fn split(tables: &LogLawTables) -> (ChannelScene, LogLaw) {
+        let LogLawTables { fluid, flow, closures, grid, check, limit, .. } = tables.clone();
+        let scene = ChannelScene {
+            fluid: (&fluid).into(),
             flow: ChannelFlow { u_star: Some(flow.u_star), ..ChannelFlow::new(flow.height) },
-        }
+        };
+        (scene, LogLaw { closures, grid, check, limit })
     }
 
-    fn build(scene: &ChannelScene, tables: &LogLawTables, faults: &mut Faults) -> Option<Self> {
-        let (ChannelScene { fluid, flow }, LogLawTables { closures, grid, .. }) = (scene, tables);
+    fn build(scene: &ChannelScene, table: &LogLaw, faults: &mut Faults) -> Option<Self> {
+        let (ChannelScene { fluid, flow }, LogLaw { closures, grid, .. }) = (scene, table);
         let (Only(mixing_length), Only(wall)) = (closures.mixing_length, closures.wall);
         if wall.roughness_length() >= flow.depth {
             let fault = ExactFault::RoughnessAboveFlow { length: wall.roughness_length(), height: flow.depth };

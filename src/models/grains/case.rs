@@ -1,5 +1,7 @@
 //! The tables of cases of single grains, as `tables` has those of the other models.
 
+use std::f64::consts::PI;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -8,7 +10,10 @@ use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::LinearSpring;
 use crate::closures::role::Only;
 use crate::dem::{Bottom, Discrete};
-use crate::tables;
+use crate::model::Faults;
+use crate::models::{Spring, needed};
+use crate::scene::Bed;
+use crate::{part, tables};
 
 /// A bed of grains that is let fall into place.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -252,6 +257,90 @@ tables! {
         model: VerificationModel,
         /// Laws.
         closures: GrainClosures,
+        /// How finely contacts are followed.
+        #[serde(default)]
+        discrete: ImpactSteps,
+    }
+}
+
+/// The cell of the grains: periodic along x, and along y where there are no side walls.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GrainCell {
+    /// Period along the flow.
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub length: f64,
+    /// Period across the flow, where flow.width gives no side walls.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub width: Option<f64>,
+}
+
+impl GrainCell {
+    /// Extent across the flow \[m]: the distance of the side walls, or the period.
+    pub(in crate::models) fn across(&self, walls: Option<f64>, faults: &mut Faults) -> Option<f64> {
+        needed("cell.width", walls.or(self.width), faults)
+    }
+}
+
+/// Layers of mobile grains: as given, or those of a packed bed of this thickness.
+pub(in crate::models) fn layers(given: Option<f64>, bed: &Bed, d: f64, faults: &mut Faults) -> Option<f64> {
+    let packed = || Some(bed.solid_volume()? / (PI / 6.0 * d));
+    needed("layers", given.or_else(packed), faults)
+}
+
+/// Laws of the grains; friction and restitution are those of the grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct GrainLaws {
+    /// Contact of two grains, or of a grain with a wall.
+    pub contact: Spring,
+}
+
+part! {
+    /// A bed of spheres with friction, grain by grain, at rest or down a slope.
+    pub struct GrainsTable {
+        /// Layers of mobile grains: their number is layers times length times width over the square of the diameter; left out, those
+        /// of the bed of the scene, thickness phi/(pi d/6).
+        #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
+        layers: Option<f64>,
+        /// What the bed rests on.
+        #[serde(default)]
+        bottom: Bottom,
+        /// The cell.
+        cell: GrainCell,
+        /// Whether the side walls are without friction.
+        #[serde(default)]
+        smooth_walls: bool,
+        /// Laws.
+        closures: GrainLaws,
+        /// How grains are moved and averaged.
+        discrete: Discrete,
+    }
+}
+
+part! {
+    /// The impact of one sphere on a wall or another sphere, next to its closed form.
+    pub struct ImpactTable {
+        /// The impact.
+        motion: ImpactFlow,
+        /// Laws.
+        closures: GrainLaws,
+        /// How finely it is followed.
+        #[serde(default)]
+        discrete: ImpactSteps,
+    }
+}
+
+part! {
+    /// A few grains, compared with a closed form or a conservation law.
+    pub struct VerificationTable {
+        /// Which one.
+        which: VerificationCase,
+        /// How they move.
+        #[serde(default)]
+        motion: VerificationFlow,
+        /// Laws.
+        closures: GrainLaws,
         /// How finely contacts are followed.
         #[serde(default)]
         discrete: ImpactSteps,

@@ -1,13 +1,17 @@
 //! Problems of single grains.
 
-use super::case::{GrainFlow, GrainsBedTables, ImpactTables, Target, VerificationCase as Which, VerificationTables};
+use super::case::layers;
+use super::case::{
+    GrainCell, GrainFlow, GrainLaws, GrainsBedTables, GrainsTable, ImpactTable, ImpactTables, Target,
+    VerificationCase as Which, VerificationTable, VerificationTables,
+};
 use super::{bed, impact, verification};
 use crate::closures::contact::{LinearSpring, linear_spring};
 use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
 use crate::model::{Description, Faults, Model, ModelInfo, Solve};
 use crate::models::BedFault;
-use crate::models::{of_scene, touching};
+use crate::models::touching;
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Outcome};
 use crate::scene::{Bed, BenchmarkScene, GranularFlow, GranularScene};
@@ -56,50 +60,66 @@ pub struct Verification {
 const MAX_GRAINS: f64 = 2e7;
 
 impl Model for GrainBed {
-    const INFO: ModelInfo = ModelInfo { name: "grains", stochastic: true };
+    const INFO: ModelInfo = ModelInfo { name: "grains", table: "grains", stochastic: true };
     type Scene = GranularScene;
+    type Table = GrainsTable;
     type Tables = GrainsBedTables;
 
-    fn scene(tables: &GrainsBedTables) -> GranularScene {
-        let GrainsBedTables { grains, flow, closures, .. } = tables;
-        let GrainFlow { slope, slope_definition, gravity, .. } = *flow;
-        let width = flow.side_walls.then_some(flow.width);
-        GranularScene {
-            grains: touching(grains, &closures.contact.0),
+    fn split(tables: &GrainsBedTables) -> (GranularScene, GrainsTable) {
+        let GrainsBedTables { grains, bed, flow, closures, discrete, check, limit, .. } = tables.clone();
+        let GrainFlow { slope, slope_definition, gravity, .. } = flow;
+        let (width, across) = if flow.side_walls { (Some(flow.width), None) } else { (None, Some(flow.width)) };
+        let (grains, contact) = touching(&grains, &closures.contact.0);
+        let scene = GranularScene {
+            grains,
             bed: Bed::default(),
             flow: GranularFlow { slope, slope_definition, gravity, width },
-        }
+        };
+        let table = GrainsTable {
+            layers: Some(bed.layers),
+            bottom: bed.bottom,
+            cell: GrainCell { length: flow.length, width: across },
+            smooth_walls: flow.smooth_walls,
+            closures: GrainLaws { contact },
+            discrete,
+            check,
+            limit,
+        };
+        (scene, table)
     }
 
-    fn build(scene: &GranularScene, tables: &GrainsBedTables, faults: &mut Faults) -> Option<Self> {
-        let GrainsBedTables { bed, flow, closures, discrete, .. } = tables;
+    fn build(scene: &GranularScene, table: &GrainsTable, faults: &mut Faults) -> Option<Self> {
+        let GrainsTable { cell, closures, discrete, .. } = table;
+        let contact = closures.contact.of(&scene.grains, faults);
+        let layers = layers(table.layers, &scene.bed, scene.grains.diameter, faults);
+        let width = cell.across(scene.flow.width, faults);
         let beta = scene.flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok();
         let d = scene.grains.diameter;
-        let count = bed.layers * (flow.length / d) * (flow.width / d);
+        let (layers, width) = (layers?, width?);
+        let count = layers * (cell.length / d) * (width / d);
         let wide = |name: &'static str, length: f64, least: f64, faults: &mut Faults| {
             if length < least * d {
                 faults.push((name, BedFault::GrainRoom { name, value: length, least: least * d, most: 1e3 }));
             }
         };
-        wide("flow.length", flow.length, 4.0, faults);
-        wide("flow.width", flow.width, if flow.side_walls { 1.0 } else { 4.0 }, faults);
+        wide("flow.length", cell.length, 4.0, faults);
+        wide("flow.width", width, if scene.flow.width.is_some() { 1.0 } else { 4.0 }, faults);
         let possible = (1.0..=MAX_GRAINS).contains(&count);
         if !possible {
             let name = "the number of mobile grains";
             faults.push(("bed.layers", BedFault::GrainRoom { name, value: count, least: 1.0, most: MAX_GRAINS }));
         }
-        let contact = of_scene(closures.contact.0, &scene.grains)?;
         Some(Self {
             d,
             rho_p: scene.grains.density,
             mobile: if possible { count.round() as usize } else { 1 },
-            bottom: bed.bottom,
-            size: [flow.length, flow.width],
+            bottom: table.bottom,
+            size: [cell.length, width],
             side_walls: scene.flow.width.is_some(),
-            smooth_walls: flow.smooth_walls,
+            smooth_walls: table.smooth_walls,
             beta: beta?,
             g: scene.flow.gravity,
-            contact,
+            contact: contact?,
             discrete: *discrete,
         })
     }
@@ -125,27 +145,31 @@ impl Solve for GrainBed {
 }
 
 impl Model for Impact {
-    const INFO: ModelInfo = ModelInfo { name: "impact", stochastic: true };
+    const INFO: ModelInfo = ModelInfo { name: "impact", table: "impact", stochastic: true };
     type Scene = BenchmarkScene;
+    type Table = ImpactTable;
     type Tables = ImpactTables;
 
-    fn scene(tables: &ImpactTables) -> BenchmarkScene {
-        let grains = touching(&tables.grains, &tables.closures.contact.0);
-        BenchmarkScene { fluid: None, grains: Some(grains) }
+    fn split(tables: &ImpactTables) -> (BenchmarkScene, ImpactTable) {
+        let ImpactTables { grains, flow: motion, closures, discrete, check, limit, .. } = tables.clone();
+        let (grains, contact) = touching(&grains, &closures.contact.0);
+        let closures = GrainLaws { contact };
+        let table = ImpactTable { motion, closures, discrete, check, limit };
+        (BenchmarkScene { fluid: None, grains: Some(grains) }, table)
     }
 
-    fn build(scene: &BenchmarkScene, tables: &ImpactTables, _: &mut Faults) -> Option<Self> {
+    fn build(scene: &BenchmarkScene, table: &ImpactTable, faults: &mut Faults) -> Option<Self> {
         let grains = scene.grains?;
-        let contact = of_scene(tables.closures.contact.0, &grains)?;
+        let contact = table.closures.contact.of(&grains, faults)?;
         Some(Self {
             d: grains.diameter,
             rho_p: grains.density,
-            velocity: tables.flow.velocity,
-            angle: tables.flow.angle,
-            spin: tables.flow.spin,
-            target: tables.flow.target,
+            velocity: table.motion.velocity,
+            angle: table.motion.angle,
+            spin: table.motion.spin,
+            target: table.motion.target,
             contact,
-            steps_per_contact: tables.discrete.steps_per_contact,
+            steps_per_contact: table.discrete.steps_per_contact,
         })
     }
 }
@@ -166,26 +190,30 @@ impl Solve for Impact {
 }
 
 impl Model for Verification {
-    const INFO: ModelInfo = ModelInfo { name: "trial", stochastic: true };
+    const INFO: ModelInfo = ModelInfo { name: "trial", table: "verification", stochastic: true };
     type Scene = BenchmarkScene;
+    type Table = VerificationTable;
     type Tables = VerificationTables;
 
-    fn scene(tables: &VerificationTables) -> BenchmarkScene {
-        let grains = touching(&tables.grains, &tables.closures.contact.0);
-        BenchmarkScene { fluid: None, grains: Some(grains) }
+    fn split(tables: &VerificationTables) -> (BenchmarkScene, VerificationTable) {
+        let VerificationTables { grains, flow: motion, model, closures, discrete, check, limit, .. } = tables.clone();
+        let (grains, contact) = touching(&grains, &closures.contact.0);
+        let closures = GrainLaws { contact };
+        let table = VerificationTable { which: model.trial, motion, closures, discrete, check, limit };
+        (BenchmarkScene { fluid: None, grains: Some(grains) }, table)
     }
 
-    fn build(scene: &BenchmarkScene, tables: &VerificationTables, _: &mut Faults) -> Option<Self> {
+    fn build(scene: &BenchmarkScene, table: &VerificationTable, faults: &mut Faults) -> Option<Self> {
         let grains = scene.grains?;
-        let contact = of_scene(tables.closures.contact.0, &grains)?;
+        let contact = table.closures.contact.of(&grains, faults)?;
         Some(Self {
-            case: tables.model.trial,
+            case: table.which,
             d: grains.diameter,
             rho_p: grains.density,
-            velocity: tables.flow.velocity,
-            g: tables.flow.gravity,
+            velocity: table.motion.velocity,
+            g: table.motion.gravity,
             contact,
-            steps_per_contact: tables.discrete.steps_per_contact,
+            steps_per_contact: table.discrete.steps_per_contact,
         })
     }
 }

@@ -18,8 +18,8 @@ use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::BedScene;
-use crate::tables;
 use crate::units::significant;
+use crate::{part, tables};
 
 /// The model: a laminar bed, solved numerically.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -107,6 +107,22 @@ tables! {
     }
 }
 
+part! {
+    /// Laminar flow over a bed of grains between two planes: regularised, or with the exact yield.
+    pub struct Laminar {
+        /// One velocity for fluid and grains, or two.
+        form: Form,
+        /// Laws.
+        closures: LaminarClosures,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the solver.
+        #[serde(default)]
+        grid: YieldGrid,
+    }
+}
+
 /// A laminar bed that is solved numerically.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RegularisedBed {
@@ -119,22 +135,25 @@ pub struct RegularisedBed {
 }
 
 impl Model for OnMesh<RegularisedBed> {
-    const INFO: ModelInfo = ModelInfo { name: "laminar", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "laminar", table: "laminar", stochastic: false };
     type Scene = BedScene;
+    type Table = Laminar;
     type Tables = LaminarTables;
 
-    fn scene(tables: &LaminarTables) -> BedScene {
-        let LaminarTables { fluid, grains, bed, flow, .. } = tables;
-        flow.over((fluid, grains, bed))
+    fn split(tables: &LaminarTables) -> (BedScene, Laminar) {
+        let LaminarTables { fluid, grains, bed, flow, model, closures, regularisation, grid, check, limit, .. } =
+            tables.clone();
+        let table = Laminar { form: model.form, closures, regularisation, grid, check, limit };
+        (flow.over((&fluid, &grains, &bed)), table)
     }
 
-    fn build(scene: &BedScene, tables: &LaminarTables, faults: &mut Faults) -> Option<Self> {
-        let LaminarTables { closures, grid, .. } = tables;
-        let bed = laminar_bed(scene, closures.into(), tables.model.form, Self::INFO.name, faults);
-        let size = size(&tables.regularisation, faults);
+    fn build(scene: &BedScene, table: &Laminar, faults: &mut Faults) -> Option<Self> {
+        let Laminar { form, closures, grid, .. } = table;
+        let bed = laminar_bed(scene, closures.into(), *form, Self::INFO.name, faults);
+        let size = size(&table.regularisation, faults);
         let bed = bed?;
         let lambda = size?.to_scaled(bed.velocity_scale() / bed.h);
-        let regularisation = Regularisation { law: tables.regularisation.law, lambda };
+        let regularisation = Regularisation { law: table.regularisation.law, lambda };
         let problem = RegularisedBed { bed, regularisation, yield_node: grid.yield_node };
         Some(Self { problem, cells: grid.cells })
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::case::tables::{Bed, BinghamFluid, Fluid, Grains, Shape, only};
 use crate::models::exact::bed::{BedClosures, Form};
 use crate::models::yielding::RegularisationTable;
-use crate::tables;
+use crate::{part, tables};
 
 /// A duct that a pressure gradient drives a yield-stress fluid through.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -272,6 +272,66 @@ tables! {
         flow: CavityFlow,
         /// The model.
         model: CavityModel,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Cells of the cavity.
+        #[serde(default)]
+        grid: CavityGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
+    }
+}
+
+part! {
+    /// Yield-stress fluid along a duct, in its cross-section.
+    pub struct DuctTable {
+        /// How the minimum is found.
+        #[serde(default)]
+        method: Method,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Elements of the section.
+        #[serde(default)]
+        grid: SectionGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
+    }
+}
+
+part! {
+    /// Laminar flow along a duct over a bed of grains, in its cross-section.
+    pub struct DuctBedTable {
+        /// One velocity for fluid and grains, or two.
+        form: Form,
+        /// How the minimum is found.
+        #[serde(default)]
+        method: Method,
+        /// Laws.
+        closures: BedClosures,
+        /// How the yield stress is smoothed.
+        #[serde(default)]
+        regularisation: RegularisationTable,
+        /// Elements of the section.
+        #[serde(default)]
+        grid: SectionGrid,
+        /// The first-order method.
+        #[serde(default)]
+        solver: SectionSolver,
+    }
+}
+
+part! {
+    /// Slow flow of a yield-stress fluid in a square cavity under a sliding lid.
+    pub struct CavityTable {
+        /// The cavity and its lid.
+        geometry: CavityFlow,
+        /// How the minimum is found.
+        #[serde(default)]
+        method: Method,
         /// How the yield stress is smoothed.
         #[serde(default)]
         regularisation: RegularisationTable,

@@ -1,6 +1,9 @@
 //! A flow along a duct, in its cross-section.
 
-use super::case::{CavityTables, DuctBedTables, DuctTables, Method, SectionGrid, SectionSolver};
+use super::case::{
+    BedModel, CavityTable, CavityTables, DuctBedTable, DuctBedTables, DuctTable, DuctTables, Method, SectionGrid,
+    SectionSolver,
+};
 use super::{cavity_equations, equations, run, run_cavity, study};
 use crate::case::tables::Shape;
 use crate::closures::regularisation::{Regularisation, Smoothing};
@@ -187,24 +190,24 @@ pub struct Duct(pub OnMesh<DuctFlow>);
 pub struct DuctBed(pub OnMesh<DuctFlow>);
 
 impl Model for Duct {
-    const INFO: ModelInfo = ModelInfo { name: "section/duct", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "section/duct", table: "duct", stochastic: false };
     type Scene = ChannelScene;
+    type Table = DuctTable;
     type Tables = DuctTables;
 
-    fn scene(tables: &DuctTables) -> ChannelScene {
-        let DuctTables { fluid, flow, .. } = tables;
+    fn split(tables: &DuctTables) -> (ChannelScene, DuctTable) {
+        let DuctTables { fluid, flow, model, regularisation, grid, solver, check, limit, .. } = tables.clone();
         let section = Some(Section { shape: flow.shape, width: flow.width });
         let pressure_gradient = Some(flow.pressure_gradient);
-        ChannelScene {
-            fluid: fluid.into(),
-            flow: ChannelFlow { section, pressure_gradient, ..ChannelFlow::new(flow.height) },
-        }
+        let flow = ChannelFlow { section, pressure_gradient, ..ChannelFlow::new(flow.height) };
+        let table = DuctTable { method: model.method, regularisation, grid, solver, check, limit };
+        (ChannelScene { fluid: (&fluid).into(), flow }, table)
     }
 
-    fn build(scene: &ChannelScene, tables: &DuctTables, faults: &mut Faults) -> Option<Self> {
+    fn build(scene: &ChannelScene, tables: &DuctTable, faults: &mut Faults) -> Option<Self> {
         let ChannelScene { fluid, flow } = scene;
         let outline = outline(flow.section?, flow.depth, faults);
-        let solver = solver(tables.model.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
+        let solver = solver(tables.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
         let size = size(&tables.regularisation, faults);
         let contents = Contents::Bingham { rho: fluid.density, eta: fluid.viscosity, tau_0: fluid.yield_stress };
         let mut duct = DuctFlow {
@@ -224,23 +227,27 @@ impl Model for Duct {
 }
 
 impl Model for DuctBed {
-    const INFO: ModelInfo = ModelInfo { name: "section/bed", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "section/bed", table: "duct-bed", stochastic: false };
     type Scene = BedScene;
+    type Table = DuctBedTable;
     type Tables = DuctBedTables;
 
-    fn scene(tables: &DuctBedTables) -> BedScene {
-        let DuctBedTables { fluid, grains, bed, flow, .. } = tables;
-        let mut scene = between_planes((fluid, grains, bed), flow.height, flow.gravity);
+    fn split(tables: &DuctBedTables) -> (BedScene, DuctBedTable) {
+        let DuctBedTables {
+            fluid, grains, bed, flow, model, closures, regularisation, grid, solver, check, limit, ..
+        } = tables.clone();
+        let mut scene = between_planes((&fluid, &grains, &bed), flow.height, flow.gravity);
         scene.flow.section = Some(Section { shape: flow.shape, width: flow.width });
         scene.flow.pressure_gradient = Some(flow.pressure_gradient);
-        scene
+        let BedModel { form, method, .. } = model;
+        (scene, DuctBedTable { form, method, closures, regularisation, grid, solver, check, limit })
     }
 
-    fn build(scene: &BedScene, tables: &DuctBedTables, faults: &mut Faults) -> Option<Self> {
+    fn build(scene: &BedScene, tables: &DuctBedTable, faults: &mut Faults) -> Option<Self> {
         let height = scene.bed.thickness? + scene.flow.depth?;
-        let bed = laminar_bed(scene, (&tables.closures).into(), tables.model.form, Self::INFO.name, faults);
+        let bed = laminar_bed(scene, (&tables.closures).into(), tables.form, Self::INFO.name, faults);
         let outline = outline(scene.flow.section?, height, faults);
-        let solver = solver(tables.model.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
+        let solver = solver(tables.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
         let size = size(&tables.regularisation, faults);
         let mut duct = DuctFlow {
             outline: outline?,
@@ -329,18 +336,22 @@ impl Solve for OnMesh<DuctFlow> {
 }
 
 impl Model for OnMesh<CavityFlow> {
-    const INFO: ModelInfo = ModelInfo { name: "section/cavity", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "section/cavity", table: "cavity", stochastic: false };
     type Scene = BenchmarkScene;
+    type Table = CavityTable;
     type Tables = CavityTables;
 
-    fn scene(tables: &CavityTables) -> BenchmarkScene {
-        BenchmarkScene { fluid: Some((&tables.fluid).into()), grains: None }
+    fn split(tables: &CavityTables) -> (BenchmarkScene, CavityTable) {
+        let CavityTables { fluid, flow: geometry, model, regularisation, grid, solver, check, limit, .. } =
+            tables.clone();
+        let table = CavityTable { geometry, method: model.method, regularisation, grid, solver, check, limit };
+        (BenchmarkScene { fluid: Some((&fluid).into()), grains: None }, table)
     }
 
-    fn build(scene: &BenchmarkScene, tables: &CavityTables, faults: &mut Faults) -> Option<Self> {
-        let (fluid, CavityTables { flow, grid, .. }) = (scene.fluid?, tables);
+    fn build(scene: &BenchmarkScene, tables: &CavityTable, faults: &mut Faults) -> Option<Self> {
+        let (fluid, CavityTable { geometry: flow, grid, .. }) = (scene.fluid?, tables);
         let grid = SectionGrid { cells: grid.cells, yield_row: false, finest: grid.finest, along: None };
-        let solver = solver(tables.model.method, tables.regularisation.law, &grid, &tables.solver, faults);
+        let solver = solver(tables.method, tables.regularisation.law, &grid, &tables.solver, faults);
         let lambda = size(&tables.regularisation, faults)?.to_scaled(flow.lid_velocity / flow.height);
         let problem = CavityFlow {
             h: flow.height,

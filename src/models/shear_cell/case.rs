@@ -8,7 +8,7 @@ use crate::closures::kinetic;
 use crate::closures::kinetic::radial::PHI_MAX;
 use crate::closures::role::choice;
 use crate::models::two_fluid::CollidingGrains;
-use crate::tables;
+use crate::{part, tables};
 
 /// The gap between the walls and the grains in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -80,6 +80,19 @@ tables! {
         flow: ShearCell,
         /// The model.
         model: ShearCellModel,
+        /// Laws.
+        closures: ShearCellClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
+    }
+}
+
+part! {
+    /// Grains that collide between two walls, without fluid or gravity.
+    pub struct ShearCellTable {
+        /// The gap between the walls, and what they do to the grains.
+        geometry: ShearCell,
         /// Laws.
         closures: ShearCellClosures,
         /// Levels of the profile.

@@ -1,6 +1,6 @@
 //! Problems of grains between two walls that move.
 
-use super::case::{Colliding, ShearCellTables};
+use super::case::{Colliding, ShearCellTable, ShearCellTables};
 use super::{equations, run, study};
 use crate::case::Fault;
 use crate::closures::Info;
@@ -35,16 +35,19 @@ pub struct ShearCell {
 }
 
 impl Model for OnMesh<ShearCell> {
-    const INFO: ModelInfo = ModelInfo { name: "shear-cell", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "shear-cell", table: "shear-cell", stochastic: false };
     type Scene = BenchmarkScene;
+    type Table = ShearCellTable;
     type Tables = ShearCellTables;
 
-    fn scene(tables: &ShearCellTables) -> BenchmarkScene {
-        BenchmarkScene { fluid: None, grains: Some((&tables.grains).into()) }
+    fn split(tables: &ShearCellTables) -> (BenchmarkScene, ShearCellTable) {
+        let ShearCellTables { grains, flow: geometry, closures, grid, check, limit, .. } = tables.clone();
+        let scene = BenchmarkScene { fluid: None, grains: Some((&grains).into()) };
+        (scene, ShearCellTable { geometry, closures, grid, check, limit })
     }
 
-    fn build(scene: &BenchmarkScene, tables: &ShearCellTables, faults: &mut Faults) -> Option<Self> {
-        let (grains, ShearCellTables { flow, closures, .. }) = (scene.grains?, tables);
+    fn build(scene: &BenchmarkScene, table: &ShearCellTable, faults: &mut Faults) -> Option<Self> {
+        let (grains, ShearCellTable { geometry: flow, closures, .. }) = (scene.grains?, table);
         if flow.phi >= flow.phi_max {
             let allowed = format!("less than flow.phi_max = {}", flow.phi_max);
             faults.push(("flow.phi", Fault::OutOfRange { name: "phi".into(), value: flow.phi, allowed }));
@@ -70,7 +73,7 @@ impl Model for OnMesh<ShearCell> {
             // Nothing but the collisions ends the flight of a grain here.
             kinetic: Kinetic { saltation: None, ..kinetic },
         };
-        Some(Self { problem, cells: tables.grid.cells })
+        Some(Self { problem, cells: table.grid.cells })
     }
 }
 

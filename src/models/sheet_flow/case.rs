@@ -14,7 +14,7 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::rearrangement::Rearrangement;
 use crate::closures::role::Only;
 use crate::closures::suspension::Suspension;
-use crate::tables;
+use crate::{part, tables};
 
 /// A bed that loosens and goes into suspension.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -245,6 +245,65 @@ tables! {
         model: SheetModel,
         /// Laws.
         closures: SheetClosures<F>,
+        /// Small numbers.
+        #[serde(default)]
+        regularisation: SheetRegularisation,
+        /// Cells of the column.
+        #[serde(default)]
+        grid: SheetGrid,
+        /// The iteration.
+        #[serde(default)]
+        solver: SheetSolver,
+    }
+}
+
+/// What the top of the bed is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum BedLevel {
+    /// The thickness of the bed is that of the bed in the flow, up to the interface; the amount of grains follows.
+    #[default]
+    InFlow,
+    /// It is that of the bed at rest, packed at phi_max; the amount of grains is conserved between bed and suspension, and the
+    /// interface in the flow follows.
+    AtRest,
+}
+
+/// Laws of the sheet flow; the top and the settling velocity are those of the flow and of the grains.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(bound = "")]
+#[schemars(bound = "")]
+pub struct SheetLaws<F: FrictionLaw = MuI> {
+    /// Friction of the grains.
+    pub friction: Only<F>,
+    /// Dilatancy of the grains.
+    pub dilatancy: Only<PhiI>,
+    /// Rearrangement time of the grains.
+    #[serde(default)]
+    pub rearrangement: Rearrangement,
+    /// Effective viscosity of the mixture.
+    pub mixture_viscosity: MixtureViscosity,
+    /// Drag between the phases.
+    pub drag: Only<Dallavalle>,
+    /// Mixing length of the turbulence.
+    pub mixing_length: Only<LiSawamoto>,
+    /// Grains in suspension.
+    #[serde(default)]
+    pub suspension: Suspension,
+}
+
+part! {
+    /// Turbulent flow over a bed of grains that shear as dense granular flow, with a suspension above.
+    #[schemars(rename = "SheetTable")]
+    pub struct SheetTable<F: FrictionLaw = MuI> {
+        /// What the top of the bed is.
+        #[serde(default)]
+        bed_level: BedLevel,
+        /// How the discrete equations are solved.
+        #[serde(default)]
+        method: SheetMethod,
+        /// Laws.
+        closures: SheetLaws<F>,
         /// Small numbers.
         #[serde(default)]
         regularisation: SheetRegularisation,

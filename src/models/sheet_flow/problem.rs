@@ -1,6 +1,8 @@
 //! A turbulent flow over a bed that shears: the two-layer sheet flow.
 
-use super::case::{BedReading, SheetFlowTables, SheetMethod, SheetSmoothing};
+use super::case::{
+    BedLevel, BedReading, SheetClosures, SheetFlowTables, SheetLaws, SheetMethod, SheetSmoothing, SheetTable,
+};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::Info;
@@ -18,7 +20,7 @@ use crate::model::{
     Term, TermTest, TurbulentScene,
 };
 use crate::models::sheet_flow::SheetFlowFault;
-use crate::models::{BedFault, RegularisationSize};
+use crate::models::{BedFault, RegularisationSize, needed};
 use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
@@ -107,17 +109,33 @@ const ERROR: f64 = 0.26;
 const DRIVES: [&str; 3] = ["shields", "u_star", "slope"];
 
 impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
-    const INFO: ModelInfo = ModelInfo { name: "sheet-flow", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "sheet-flow", table: "sheet-flow", stochastic: false };
     type Scene = BedScene;
+    type Table = SheetTable<F>;
     type Tables = SheetFlowTables<F>;
 
-    fn scene(tables: &SheetFlowTables<F>) -> BedScene {
-        let SheetFlowTables { fluid, grains, bed, flow, closures, .. } = tables;
+    fn split(tables: &SheetFlowTables<F>) -> (BedScene, SheetTable<F>) {
+        let SheetFlowTables {
+            fluid,
+            grains,
+            bed,
+            flow,
+            model,
+            closures,
+            regularisation,
+            grid,
+            solver,
+            check,
+            limit,
+            ..
+        } = tables.clone();
+        let SheetClosures { friction, dilatancy, rearrangement, mixture_viscosity, drag, mixing_length, .. } = closures;
         let settling_velocity = closures.suspension.settling_velocity();
+        let bed_level = if bed.reading == BedReading::Final { BedLevel::InFlow } else { BedLevel::AtRest };
         // The interface in the flow holds an amount of grains that is a result.
-        let phi = (bed.reading == BedReading::Initial).then_some(closures.dilatancy.0.phi_max);
-        BedScene {
-            fluid: *fluid,
+        let phi = (bed_level == BedLevel::AtRest).then_some(dilatancy.0.phi_max);
+        let scene = BedScene {
+            fluid,
             grains: Grains { settling_velocity, ..Grains::new(grains.diameter, grains.density) },
             bed: Bed { thickness: Some(bed.level), phi },
             flow: BedFlow {
@@ -128,13 +146,20 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
                 slope_definition: flow.slope.map(|_| flow.slope_definition),
                 ..BedFlow::new(closures.lid.into(), flow.gravity)
             },
-        }
+        };
+        let suspension = closures.suspension.of_grains();
+        let closures =
+            SheetLaws { friction, dilatancy, rearrangement, mixture_viscosity, drag, mixing_length, suspension };
+        let method = model.method;
+        (scene, SheetTable { bed_level, method, closures, regularisation, grid, solver, check, limit })
     }
 
-    fn build(scene: &BedScene, tables: &SheetFlowTables<F>, faults: &mut Faults) -> Option<Self> {
+    fn build(scene: &BedScene, table: &SheetTable<F>, faults: &mut Faults) -> Option<Self> {
         let BedScene { fluid, grains, flow, .. } = scene;
-        let SheetFlowTables { closures, regularisation, solver, .. } = tables;
-        let (level, depth) = scene.bed.thickness.zip(flow.depth)?;
+        let SheetTable { closures, regularisation, solver, .. } = table;
+        let level = needed("bed.thickness", scene.bed.thickness, faults);
+        let depth = needed("flow.depth", flow.depth, faults);
+        let (level, depth) = (level?, depth?);
         let height = level + depth;
         if depth <= 0.0 {
             faults.push(("bed.level", BedFault::NoRoomForFlow { level, height }));
@@ -157,7 +182,14 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             .zip(DRIVES)
             .filter_map(|(given, name)| given.map(|_| name.to_owned()))
             .collect();
-        let lid = flow.top.lid()?;
+        let Some(lid) = flow.top.lid() else {
+            let allowed = "free-surface, stress, solved, colebrook-white".to_owned();
+            faults.push((
+                "flow.top",
+                Fault::WrongType { name: "flow.top".into(), found: "no top of this model", expected: allowed },
+            ));
+            return None;
+        };
         let solved = lid == Lid::Solved;
         let complete = if solved { flow.slope.is_some() && drives.len() == 2 } else { drives.len() == 1 };
         if !complete {
@@ -189,7 +221,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
                 None
             }
         };
-        if tables.model.method == SheetMethod::Iteration && lambda == Some(0.0) {
+        if table.method == SheetMethod::Iteration && lambda == Some(0.0) {
             faults.push(("model.method", SheetFlowFault::IterationNeedsCreep));
         }
         let (lambda, sine) = (lambda?, sine?);
@@ -201,7 +233,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             g: flow.gravity,
             height,
             level,
-            reading: tables.bed.reading,
+            reading: if table.bed_level == BedLevel::InFlow { BedReading::Final } else { BedReading::Initial },
             tau_b: match (flow.shields, flow.u_star) {
                 (Some(shields), _) => Some(shields * (grains.density - fluid.density) * flow.gravity * grains.diameter),
                 (None, Some(u_star)) => Some(fluid.density * u_star * u_star),
@@ -219,14 +251,14 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             lambda,
             cut: regularisation.interface_cut * grains.diameter,
             deepen_cut: regularisation.deepen_cut,
-            method: tables.model.method,
+            method: table.method,
             pseudo_time: PseudoTime {
                 step: solver.time_step,
                 tolerance: solver.tolerance,
                 max_iterations: solver.max_iterations,
             },
         };
-        Some(Self { problem, cells: tables.grid.cells })
+        Some(Self { problem, cells: table.grid.cells })
     }
 
     fn offer(flow: &Flow, tolerance: f64) -> Option<Offer> {

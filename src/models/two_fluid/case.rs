@@ -11,7 +11,7 @@ use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
 use crate::closures::mixing_length::MixingLength;
 use crate::closures::role::Only;
 use crate::scene::Grains;
-use crate::tables;
+use crate::{part, tables};
 
 /// Grains that collide.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -260,6 +260,33 @@ tables! {
         flow: TwoFluidFlow,
         /// The model.
         model: TwoFluidModel,
+        /// Laws.
+        closures: TwoFluidClosures,
+        /// Small numbers.
+        #[serde(default)]
+        regularisation: TwoFluidRegularisation,
+        /// Cells of the column.
+        #[serde(default)]
+        grid: TwoFluidGrid,
+        /// The flow in time.
+        #[serde(default)]
+        solver: TwoFluidSolver,
+    }
+}
+
+part! {
+    /// Grains that collide and the turbulent fluid that drives them, as two fluids of one dimension.
+    pub struct TwoFluidTable {
+        /// Solid fraction at which the grains jam: in the radial distribution function and in the elastic pressure.
+        #[serde(default = "phi_max")]
+        #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
+        phi_max: f64,
+        /// Whether the steady flow is solved for, or the flow in time.
+        #[serde(default)]
+        state: State,
+        /// Whether the stress of the fluid carries the factor 1 - phi.
+        #[serde(default)]
+        fluid_stress: FluidStress,
         /// Laws.
         closures: TwoFluidClosures,
         /// Small numbers.

@@ -1,6 +1,6 @@
 //! Problems of grains and fluid as two fluids.
 
-use super::case::{FluidStress, State, TwoFluidBed, TwoFluidFlow, TwoFluidTables};
+use super::case::{FluidStress, State, TwoFluidFlow, TwoFluidModel, TwoFluidTable, TwoFluidTables};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::case::tables::Oscillation;
@@ -13,8 +13,8 @@ use crate::model::{
     BULK_FRICTION, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
     TurbulentScene,
 };
-use crate::models::BedFault;
 use crate::models::two_fluid::TwoFluidFault;
+use crate::models::{BedFault, needed};
 use crate::result::Context;
 use crate::result::{Failure, Figure, Outcome};
 use crate::scene::{Bed, BedFlow, BedScene, Top};
@@ -109,16 +109,30 @@ impl TwoFluid {
 }
 
 impl Model for OnMesh<TwoFluid> {
-    const INFO: ModelInfo = ModelInfo { name: "two-fluid", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "two-fluid", table: "two-fluid", stochastic: false };
     type Scene = BedScene;
+    type Table = TwoFluidTable;
     type Tables = TwoFluidTables;
 
-    fn scene(tables: &TwoFluidTables) -> BedScene {
-        let TwoFluidTables { fluid, grains, bed, flow, .. } = tables;
-        let TwoFluidFlow { depth, shields, slope, slope_definition, gravity, oscillation } = *flow;
-        BedScene {
-            fluid: *fluid,
-            grains: grains.into(),
+    fn split(tables: &TwoFluidTables) -> (BedScene, TwoFluidTable) {
+        let TwoFluidTables {
+            fluid,
+            grains,
+            bed,
+            flow,
+            model,
+            closures,
+            regularisation,
+            grid,
+            solver,
+            check,
+            limit,
+            ..
+        } = tables.clone();
+        let TwoFluidFlow { depth, shields, slope, slope_definition, gravity, oscillation } = flow;
+        let scene = BedScene {
+            fluid,
+            grains: (&grains).into(),
             bed: Bed { thickness: Some(bed.thickness), phi: Some(bed.phi) },
             flow: BedFlow {
                 depth,
@@ -128,13 +142,20 @@ impl Model for OnMesh<TwoFluid> {
                 oscillation,
                 ..BedFlow::new(Top::FreeSurface, gravity)
             },
-        }
+        };
+        let (TwoFluidModel { state, fluid_stress, .. }, phi_max) = (model, bed.phi_max);
+        (scene, TwoFluidTable { phi_max, state, fluid_stress, closures, regularisation, grid, solver, check, limit })
     }
 
-    fn build(scene: &BedScene, tables: &TwoFluidTables, faults: &mut Faults) -> Option<Self> {
+    fn build(scene: &BedScene, table: &TwoFluidTable, faults: &mut Faults) -> Option<Self> {
         let BedScene { fluid, grains, flow, bed: Bed { thickness, phi } } = scene;
-        let TwoFluidTables { closures, regularisation, solver, bed: TwoFluidBed { phi_max, .. }, .. } = tables;
-        let (thickness, phi, phi_max, slope) = ((*thickness)?, (*phi)?, *phi_max, flow.slope?);
+        let TwoFluidTable { closures, regularisation, solver, phi_max, .. } = table;
+        let thickness = needed("bed.thickness", *thickness, faults);
+        let phi = needed("bed.phi", *phi, faults);
+        let slope = needed("flow.slope", flow.slope, faults);
+        let restitution = needed("grains.restitution", grains.restitution, faults);
+        let friction = needed("grains.friction", grains.friction, faults);
+        let (thickness, phi, phi_max, slope) = (thickness?, phi?, *phi_max, slope?);
         let beta = flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok().flatten();
         if grains.density <= fluid.density {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
@@ -185,7 +206,7 @@ impl Model for OnMesh<TwoFluid> {
                 None
             }
         };
-        if flow.oscillation.is_some() && tables.model.state == State::Steady {
+        if flow.oscillation.is_some() && table.state == State::Steady {
             faults.push(("flow.oscillation", TwoFluidFault::NeedsTime));
         }
         let problem = TwoFluid {
@@ -193,16 +214,16 @@ impl Model for OnMesh<TwoFluid> {
             eta: fluid.viscosity,
             rho_p: grains.density,
             d: grains.diameter,
-            e: grains.restitution?,
-            mu_p: grains.friction?,
+            e: restitution?,
+            mu_p: friction?,
             thickness,
             phi,
             phi_max,
             depth: depth?,
             beta: beta?,
             g: flow.gravity,
-            state: tables.model.state,
-            fluid_stress: tables.model.fluid_stress,
+            state: table.state,
+            fluid_stress: table.fluid_stress,
             granular: closures.granular,
             elastic: closures.elastic,
             static_friction: closures.static_friction,
@@ -212,11 +233,11 @@ impl Model for OnMesh<TwoFluid> {
             temperature_floor: regularisation.granular_temperature,
             rate_floor: regularisation.shear_rate,
             phi_floor: regularisation.phi,
-            fine: tables.grid.fine,
+            fine: table.grid.fine,
             oscillation: flow.oscillation,
             time: TimeControl { duration: solver.duration, tolerance: solver.tolerance, samples: solver.samples },
         };
-        Some(Self { problem, cells: tables.grid.cells })
+        Some(Self { problem, cells: table.grid.cells })
     }
 
     fn offer(flow: &Flow, tolerance: f64) -> Option<Offer> {

@@ -11,7 +11,7 @@ use crate::models::exact::bed::{BedClosures, Form, LaminarBed, LaminarFlow, lami
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::BedScene;
-use crate::tables;
+use crate::{part, tables};
 
 /// The model: Ouriemi's bed in closed form.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -51,19 +51,34 @@ tables! {
     }
 }
 
+part! {
+    /// Laminar flow over a bed of grains between two planes, in closed form.
+    pub struct LaminarExact {
+        /// One velocity for fluid and grains, or two.
+        form: Form,
+        /// Laws.
+        closures: BedClosures,
+        /// Levels of the profile.
+        #[serde(default)]
+        grid: Grid,
+    }
+}
+
 impl Model for OnMesh<LaminarBed> {
-    const INFO: ModelInfo = ModelInfo { name: "exact/ouriemi", stochastic: false };
+    const INFO: ModelInfo = ModelInfo { name: "exact/ouriemi", table: "laminar-exact", stochastic: false };
     type Scene = BedScene;
+    type Table = LaminarExact;
     type Tables = OuriemiTables;
 
-    fn scene(tables: &OuriemiTables) -> BedScene {
-        let OuriemiTables { fluid, grains, bed, flow, .. } = tables;
-        flow.over((fluid, grains, bed))
+    fn split(tables: &OuriemiTables) -> (BedScene, LaminarExact) {
+        let OuriemiTables { fluid, grains, bed, flow, model, closures, grid, check, limit, .. } = tables.clone();
+        let table = LaminarExact { form: model.form, closures, grid, check, limit };
+        (flow.over((&fluid, &grains, &bed)), table)
     }
 
-    fn build(scene: &BedScene, tables: &OuriemiTables, faults: &mut Faults) -> Option<Self> {
-        let OuriemiTables { closures, grid, .. } = tables;
-        let problem = laminar_bed(scene, closures.into(), tables.model.form, Self::INFO.name, faults)?;
+    fn build(scene: &BedScene, table: &LaminarExact, faults: &mut Faults) -> Option<Self> {
+        let LaminarExact { form, closures, grid, .. } = table;
+        let problem = laminar_bed(scene, closures.into(), *form, Self::INFO.name, faults)?;
         Some(Self { problem, cells: grid.cells })
     }
 
