@@ -12,7 +12,6 @@ use super::violation::{Span, Violation};
 use super::wording::{choices, expected, header, shown};
 use super::{scene, schema};
 use crate::closures::catalogue;
-use crate::units::UnitError;
 
 /// What a document says, and what is wrong with it.
 pub(super) struct Diagnosis<'k> {
@@ -55,9 +54,9 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 
 pub(super) struct Walk<'k> {
     pub(super) kinds: &'k Kinds,
-    kind: Option<&'k Kind>,
+    pub(super) kind: Option<&'k Kind>,
     /// diameter of the grains \[m], the unit `d` of a length
-    diameter: Option<f64>,
+    pub(super) diameter: Option<f64>,
     violations: Vec<Violation>,
 }
 
@@ -375,13 +374,6 @@ impl<'k> Walk<'k> {
             self.report(fault, path, &node.value);
         }
         json!(x)
-    }
-
-    /// What a text says of a number; in format 2 a length may be one in diameters of the grains.
-    fn quantity(&self, text: &str, schema: &Value) -> Result<f64, UnitError> {
-        let length = schema::text(schema, "x-unit") == "m" && self.kind.is_some_and(|kind| kind.scene.is_some());
-        let scaled = self.diameter.filter(|_| length).and_then(|d| scene::diameters(text, d));
-        scaled.map_or_else(|| angle::quantity(text, schema), Ok)
     }
 
     fn integer(&mut self, node: &Node, schema: &Value, path: &str) -> Value {

@@ -196,6 +196,15 @@ fn close(schema: &mut Value) {
                     object.insert("type".into(), only);
                 }
             }
+            // A choice that may be left out is the choice.
+            if let Some(Value::Array(mut choices)) = object.shift_remove("anyOf") {
+                choices.retain(|choice| choice.get("type").is_none_or(|t| t != "null"));
+                if let Some(Value::Object(choice)) = choices.pop() {
+                    choice.into_iter().for_each(|(keyword, value)| {
+                        object.entry(keyword).or_insert(value);
+                    });
+                }
+            }
             object.values_mut().for_each(close);
         }
         Value::Array(items) => items.iter_mut().for_each(close),

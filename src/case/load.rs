@@ -51,6 +51,7 @@ impl Case {
         let (mut document, mut violations) = Document::parse(source, content);
         let broken: BTreeSet<usize> = violations.iter().filter_map(|v| document.line(&v.spans[0])).collect();
         let own = scene::chosen(&document, kinds);
+        let name = scene::named(name, &document, kinds);
         for argument in overrides {
             let argument = &own.map_or_else(|| argument.clone(), |model| scene::within(model, argument));
             if let Err(violation) = document.set(argument) {
@@ -69,7 +70,7 @@ impl Case {
         violations.extend(more.into_iter().filter(|v| broken.is_empty() || !unreadable(v)));
         let built = found.filter(|_| readable).map(|(kind, value)| (kind, kind.content(value)));
         let case = |kind: &Kind, content: Content, document| Self {
-            name: name.into(),
+            name: name.clone(),
             source: source.into(),
             overrides: overrides.to_vec(),
             model: kind.name,

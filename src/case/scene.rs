@@ -1,12 +1,15 @@
 //! Cases of format 2: a flow, and the tables of the models that solve it.
 
+use serde_json::Value;
+
 use super::Case;
 use super::diagnose::{Walk, nearest};
 use super::document::{Data, Document, Node};
 use super::fault::Fault;
 use super::kind::{Kind, Kinds, SCENE, SHARED};
 use super::wording::choices;
-use crate::units::parse_quantity;
+use super::{angle, schema};
+use crate::units::{UnitError, parse_quantity};
 
 /// Whether the document is one of format 2.
 pub(super) fn is_scene(document: &Document) -> bool {
@@ -33,6 +36,14 @@ pub(super) fn choice<'k>(document: &Document, kinds: &'k Kinds) -> Result<&'k Ki
 /// The name of that model, if it is known.
 pub(super) fn chosen(document: &Document, kinds: &Kinds) -> Option<&'static str> {
     is_scene(document).then(|| choice(document, kinds).ok().map(|kind| kind.name)).flatten()
+}
+
+/// The name of a case: its stem, with the model where it has the tables of several.
+pub(super) fn named(stem: &str, document: &Document, kinds: &Kinds) -> String {
+    match chosen(document, kinds) {
+        Some(model) if present(document, kinds).len() > 1 => format!("{stem}-{model}"),
+        _ => stem.to_owned(),
+    }
 }
 
 /// A `--set` argument of a case of format 2: what is no table of the flow is a key of the model.
@@ -120,6 +131,13 @@ impl<'k> Walk<'k> {
                 None
             }
         }
+    }
+
+    /// What a text says of a number; in format 2 a length may be one in diameters of the grains.
+    pub(super) fn quantity(&self, text: &str, schema: &Value) -> Result<f64, UnitError> {
+        let length = schema::text(schema, "x-unit") == "m" && self.kind.is_some_and(|kind| kind.scene.is_some());
+        let scaled = self.diameter.filter(|_| length).and_then(|d| diameters(text, d));
+        scaled.map_or_else(|| angle::quantity(text, schema), Ok)
     }
 }
 

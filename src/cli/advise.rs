@@ -31,6 +31,10 @@ pub(super) struct Advise {
 }
 
 impl Verb for Advise {
+    fn model(&self) -> Option<&str> {
+        self.case.model.as_deref()
+    }
+
     fn json(&self) -> bool {
         self.json
     }

@@ -29,6 +29,10 @@ pub(super) struct Calibrate {
 }
 
 impl Verb for Calibrate {
+    fn model(&self) -> Option<&str> {
+        self.case.model.as_deref()
+    }
+
     fn json(&self) -> bool {
         self.study.json
     }

@@ -42,7 +42,7 @@ impl Verb for Chart {
         };
         let (plan, assess) = chart::plan(registry, &request)?;
         let mut cases = self.cases.into_iter();
-        let case = CaseArgs { case: cases.next().unwrap_or_default(), overrides: self.overrides };
+        let case = CaseArgs { case: cases.next().unwrap_or_default(), model: None, overrides: self.overrides };
         let mut options: Vec<String> = cases.map(|case| word(&case)).collect();
         options.extend(request.quantity.map(|name| format!("--quantity {}", word(&name))));
         options.extend(request.reference.map(|run| format!("--reference {}", word(&run))));

@@ -17,6 +17,10 @@ pub(super) struct Check {
 }
 
 impl Verb for Check {
+    fn model(&self) -> Option<&str> {
+        self.case.model.as_deref()
+    }
+
     fn json(&self) -> bool {
         self.json
     }

@@ -26,6 +26,9 @@ pub(super) struct Compare {
     /// Cases, shipped or as files, which are run; or folders of runs, which are read
     #[arg(value_name = "CASE|RUN")]
     subjects: Vec<String>,
+    /// A model that solves the cases, where they have the tables of several; repeat it to compare models
+    #[arg(long, value_name = "MODEL")]
+    model: Vec<String>,
     /// A measured profile as CSV: columns by their names in profile.csv, <name>_err is one sigma
     #[arg(long, value_name = "FILE.csv")]
     data: Vec<String>,
@@ -86,7 +89,7 @@ impl Verb for Compare {
 
     fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let start = Instant::now();
-        let given = self.subjects.len() + self.data.len();
+        let given = self.subjects.len() * self.model.len().max(1) + self.data.len();
         if given < 2 {
             return Err(CompareError::TooFew { given }.into());
         }
@@ -142,7 +145,13 @@ impl Compare {
             Datum::Bed => Align::Bed,
             Datum::None => Align::None,
         };
-        Request { subjects: self.subjects.clone(), data: self.data.clone(), align, scale: self.scale }
+        Request {
+            subjects: self.subjects.clone(),
+            models: self.model.clone(),
+            data: self.data.clone(),
+            align,
+            scale: self.scale,
+        }
     }
 
     /// Reads and checks everything before anything is run; the names are those of the default folder.
@@ -160,9 +169,13 @@ impl Compare {
                 let message = format!("{argument} is a table, not a case or a run");
                 return Err(CliError::Usage { message, hint: format!("give it as --data {argument}") });
             } else {
-                let (case, problem) = registry.load(argument, &[])?;
-                names.push(case.name.clone());
-                loaded.push(Loaded::Case(Box::new((case, problem))));
+                let chosen = self.model.iter().map(|model| registry.clone().choosing(model)).collect::<Vec<_>>();
+                let registries = if chosen.is_empty() { std::slice::from_ref(registry) } else { &chosen };
+                for registry in registries {
+                    let (case, problem) = registry.load(argument, &[])?;
+                    names.push(case.name.clone());
+                    loaded.push(Loaded::Case(Box::new((case, problem))));
+                }
             }
         }
         for file in &self.data {
@@ -177,6 +190,7 @@ impl Compare {
     fn command(&self, added: &str) -> String {
         let mut words = vec!["bedload compare".to_owned()];
         words.extend(self.subjects.iter().map(|s| word(s)));
+        words.extend(self.model.iter().map(|model| format!("--model {}", word(model))));
         words.extend(self.data.iter().map(|d| format!("--data {}", word(d))));
         if let (Datum::Bed | Datum::None, Some(value)) = (self.align, self.align.to_possible_value()) {
             words.push(format!("--align {}", value.get_name()));

@@ -44,6 +44,10 @@ enum Reference {
 }
 
 impl Verb for Converge {
+    fn model(&self) -> Option<&str> {
+        self.case.model.as_deref()
+    }
+
     fn json(&self) -> bool {
         self.study.json
     }

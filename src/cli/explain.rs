@@ -15,6 +15,10 @@ pub(super) struct Explain {
 }
 
 impl Verb for Explain {
+    fn model(&self) -> Option<&str> {
+        self.case.model.as_deref()
+    }
+
     fn execute(self, registry: &Registry) -> Result<(), CliError> {
         let (_, problem) = self.case.load(registry)?;
         let mut text = format!(

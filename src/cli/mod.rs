@@ -13,6 +13,7 @@ mod explain;
 mod interrupt;
 mod list;
 mod man;
+mod migrate;
 mod new;
 mod progress;
 mod report;
@@ -58,6 +59,11 @@ trait Verb {
         false
     }
 
+    /// The model that it is to solve its case with, if that was said.
+    fn model(&self) -> Option<&str> {
+        None
+    }
+
     /// Does it.
     fn execute(self, registry: &Registry) -> Result<(), CliError>;
 }
@@ -75,7 +81,13 @@ macro_rules! verbs {
                 match self { $(Self::$name(verb) => verb.json(),)* }
             }
 
+            fn model(&self) -> Option<&str> {
+                match self { $(Self::$name(verb) => verb.model(),)* }
+            }
+
             fn execute(self, registry: &Registry) -> Result<(), CliError> {
+                let chosen = self.model().map(|model| registry.clone().choosing(model));
+                let registry = chosen.as_ref().unwrap_or(registry);
                 match self { $(Self::$name(verb) => verb.execute(registry),)* }
             }
         }
@@ -91,6 +103,8 @@ verbs! {
     Explain(explain::Explain),
     /// Write a case to start from
     New(new::New),
+    /// Write a case of format 1 in format 2: the flow, and the table of its model
+    Migrate(migrate::Migrate),
     /// List models, shipped cases and closures
     List(list::List),
     /// Redraw figures and page of a run from its tables
@@ -125,6 +139,9 @@ struct CaseArgs {
     /// A file, or the name of a shipped case
     #[arg(value_name = "CASE")]
     case: String,
+    /// The model that solves it, where the case has the tables of several
+    #[arg(long, value_name = "MODEL")]
+    model: Option<String>,
     /// Change a value: table.key=value; an empty value removes the key
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
@@ -133,8 +150,9 @@ struct CaseArgs {
 impl CaseArgs {
     /// The arguments that name this case again.
     fn as_typed(&self) -> String {
+        let model = self.model.iter().map(|model| format!(" --model {model}"));
         let overrides = self.overrides.iter().map(|o| format!(" --set \"{o}\""));
-        std::iter::once(self.case.clone()).chain(overrides).collect()
+        std::iter::once(self.case.clone()).chain(model).chain(overrides).collect()
     }
 
     fn load(&self, registry: &Registry) -> Result<Checked, CliError> {

@@ -2,7 +2,7 @@
 
 use std::fs::OpenOptions;
 use std::io::{ErrorKind, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -39,25 +39,28 @@ impl Verb for New {
         if self.file.as_os_str() == "-" {
             return Ok(say(content)?);
         }
-        let file = self.file.display().to_string();
-        let refused = |error: std::io::Error| {
-            let exists = error.kind() == ErrorKind::AlreadyExists;
-            CliError::Usage {
-                message: if exists {
-                    format!("{file} is there already")
-                } else {
-                    format!("cannot write {file}: {error}")
-                },
-                hint: if exists { "give another name, or --force to replace it" } else { "give another place" }.into(),
-            }
-        };
-        let mut options = OpenOptions::new();
-        if self.force {
-            options.create(true).truncate(true)
-        } else {
-            options.create_new(true)
-        };
-        options.write(true).open(&self.file).map_err(refused)?.write_all(content.as_bytes())?;
+        write_new(&self.file, content, self.force)?;
+        let file = self.file.display();
         Ok(say(&format!("wrote {file}; next: bedload run {file}\n"))?)
     }
+}
+
+/// Writes a file that is not there yet, or replaces it with `force`.
+pub(super) fn write_new(path: &Path, content: &str, force: bool) -> Result<(), CliError> {
+    let file = path.display().to_string();
+    let refused = |error: std::io::Error| {
+        let exists = error.kind() == ErrorKind::AlreadyExists;
+        CliError::Usage {
+            message: if exists { format!("{file} is there already") } else { format!("cannot write {file}: {error}") },
+            hint: if exists { "give another name, or --force to replace it" } else { "give another place" }.into(),
+        }
+    };
+    let mut options = OpenOptions::new();
+    if force {
+        options.create(true).truncate(true)
+    } else {
+        options.create_new(true)
+    };
+    options.write(true).open(path).map_err(refused)?.write_all(content.as_bytes())?;
+    Ok(())
 }

@@ -52,6 +52,10 @@ pub(super) struct Run {
 }
 
 impl Verb for Run {
+    fn model(&self) -> Option<&str> {
+        self.case.model.as_deref()
+    }
+
     fn json(&self) -> bool {
         self.json
     }

@@ -24,6 +24,10 @@ pub(super) struct Stability {
 }
 
 impl Verb for Stability {
+    fn model(&self) -> Option<&str> {
+        self.case.model.as_deref()
+    }
+
     fn json(&self) -> bool {
         self.study.json
     }

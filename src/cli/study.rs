@@ -87,7 +87,8 @@ impl StudyArgs {
         options: &[String],
     ) -> Result<(), CliError> {
         let sets = case.overrides.iter().map(|set| format!("--set {}", word(set)));
-        let words = ["bedload".to_owned(), plan.verb.into(), word(&case.case)].into_iter().chain(sets);
+        let model = case.model.iter().map(|model| format!("--model {}", word(model)));
+        let words = ["bedload".to_owned(), plan.verb.into(), word(&case.case)].into_iter().chain(model).chain(sets);
         let command = words.chain(options.iter().cloned()).collect::<Vec<_>>().join(" ");
         let on_screen = OnScreen(Mutex::new(Progress::new(self.quiet)));
         let settings = Settings {

@@ -20,6 +20,10 @@ pub(super) struct Sweep {
 }
 
 impl Verb for Sweep {
+    fn model(&self) -> Option<&str> {
+        self.case.model.as_deref()
+    }
+
     fn json(&self) -> bool {
         self.study.json
     }

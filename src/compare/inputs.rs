@@ -11,7 +11,7 @@ use crate::units::{readable, significant};
 /// Tables of a case that state the flow, whatever the model.
 const OF_THE_FLOW: [&str; 4] = ["fluid.", "grains.", "bed.", "flow."];
 /// What in a case says neither what flows nor how it is solved.
-const BESIDE: [&str; 4] = ["format", "case.", "check", "limit."];
+const BESIDE: [&str; 5] = ["format", "scene", "case.", "check", "limit."];
 /// Amounts of sediment that differ by less are the same for a reader.
 const SAME_AMOUNT: f64 = 5e-3;
 
@@ -33,7 +33,11 @@ impl Stated {
     pub fn new(model: &str, scene: SceneRecord, tables: &Value) -> Self {
         let mut inputs = Map::new();
         flatten("", tables, &mut inputs);
-        inputs.retain(|path, _| !BESIDE.iter().any(|beside| path.starts_with(beside)));
+        // In a case of format 2 the table of the model has its name.
+        let own = format!("{model}.");
+        let known =
+            inputs.into_iter().map(|(path, value)| (path.strip_prefix(&own).map(str::to_owned).unwrap_or(path), value));
+        let inputs = known.filter(|(path, _)| !BESIDE.iter().any(|beside| path.starts_with(beside))).collect();
         Self { model: model.into(), scene, inputs }
     }
 

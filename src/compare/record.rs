@@ -14,6 +14,9 @@ use crate::result::{Cost, Provenance, Status};
 pub struct Request {
     /// cases and run folders, as typed
     pub subjects: Vec<String>,
+    /// models of the cases, as typed
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub models: Vec<String>,
     /// profile CSVs, as typed
     pub data: Vec<String>,
     /// where z is 0

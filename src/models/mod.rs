@@ -14,8 +14,8 @@ use crate::model::{Entry, Faults, OnMesh, Registry};
 
 pub use bed_error::BedError;
 pub use bed_fault::BedFault;
-use touching::touching;
-pub use touching::{Spring, SpringLaw};
+pub use touching::{GrainCell, Spring, SpringLaw};
+use touching::{layers, touching};
 pub use yielding::{RegularisationSize, RegularisationTable, YieldGrid};
 
 /// A value of the flow that this model cannot do without.

@@ -172,7 +172,7 @@ fn edges(own: &str, depth: usize, text: &str) -> Vec<String> {
     for path in paths {
         let name = target(&path).unwrap_or_else(|| path.join("::"));
         // Macros stand at the root of the crate.
-        if name != own && name != "tables" && !found.contains(&name) {
+        if name != own && name != "tables" && name != "part" && !found.contains(&name) {
             found.push(name);
         }
     }

@@ -12,6 +12,7 @@ const METHODS: &str = "the problem's methods are answered in files of their own,
 
 /// The circles that there are, and why each is one.
 const EXPLAINED: &[(&str, &[&str], &str)] = &[
+    ("case", &["diagnose", "scene"], "one walk reads both formats, and asks format 2 for the model"),
     (
         "closures::kinetic",
         &["garzo_dufty", "theory"],

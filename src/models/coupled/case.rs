@@ -13,8 +13,7 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::role::Only;
 use crate::closures::side_wall::SideWall;
 use crate::dem::{Bottom, Discrete};
-use crate::models::Spring;
-use crate::models::grains::case::GrainCell;
+use crate::models::{GrainCell, Spring};
 use crate::{part, tables};
 
 /// A bed of grains that is let fall into place.

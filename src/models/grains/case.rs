@@ -1,7 +1,5 @@
 //! The tables of cases of single grains, as `tables` has those of the other models.
 
-use std::f64::consts::PI;
-
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -10,9 +8,7 @@ use crate::case::tables::SlopeDefinition;
 use crate::closures::contact::LinearSpring;
 use crate::closures::role::Only;
 use crate::dem::{Bottom, Discrete};
-use crate::model::Faults;
-use crate::models::{Spring, needed};
-use crate::scene::Bed;
+use crate::models::{GrainCell, Spring};
 use crate::{part, tables};
 
 /// A bed of grains that is let fall into place.
@@ -261,31 +257,6 @@ tables! {
         #[serde(default)]
         discrete: ImpactSteps,
     }
-}
-
-/// The cell of the grains: periodic along x, and along y where there are no side walls.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct GrainCell {
-    /// Period along the flow.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
-    pub length: f64,
-    /// Period across the flow, where flow.width gives no side walls.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
-    pub width: Option<f64>,
-}
-
-impl GrainCell {
-    /// Extent across the flow \[m]: the distance of the side walls, or the period.
-    pub(in crate::models) fn across(&self, walls: Option<f64>, faults: &mut Faults) -> Option<f64> {
-        needed("cell.width", walls.or(self.width), faults)
-    }
-}
-
-/// Layers of mobile grains: as given, or those of a packed bed of this thickness.
-pub(in crate::models) fn layers(given: Option<f64>, bed: &Bed, d: f64, faults: &mut Faults) -> Option<f64> {
-    let packed = || Some(bed.solid_volume()? / (PI / 6.0 * d));
-    needed("layers", given.or_else(packed), faults)
 }
 
 /// Laws of the grains; friction and restitution are those of the grains.

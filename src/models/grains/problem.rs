@@ -1,9 +1,8 @@
 //! Problems of single grains.
 
-use super::case::layers;
 use super::case::{
-    GrainCell, GrainFlow, GrainLaws, GrainsBedTables, GrainsTable, ImpactTable, ImpactTables, Target,
-    VerificationCase as Which, VerificationTable, VerificationTables,
+    GrainFlow, GrainLaws, GrainsBedTables, GrainsTable, ImpactTable, ImpactTables, Target, VerificationCase as Which,
+    VerificationTable, VerificationTables,
 };
 use super::{bed, impact, verification};
 use crate::closures::contact::{LinearSpring, linear_spring};
@@ -11,7 +10,7 @@ use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
 use crate::model::{Description, Faults, Model, ModelInfo, Solve};
 use crate::models::BedFault;
-use crate::models::touching;
+use crate::models::{GrainCell, layers, touching};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Outcome};
 use crate::scene::{Bed, BenchmarkScene, GranularFlow, GranularScene};
@@ -60,7 +59,7 @@ pub struct Verification {
 const MAX_GRAINS: f64 = 2e7;
 
 impl Model for GrainBed {
-    const INFO: ModelInfo = ModelInfo { name: "grains", table: "grains", stochastic: true };
+    const INFO: ModelInfo = ModelInfo { name: "grains", table: "dem", stochastic: true };
     type Scene = GranularScene;
     type Table = GrainsTable;
     type Tables = GrainsBedTables;
