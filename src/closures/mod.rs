@@ -18,6 +18,7 @@ pub mod mixture_viscosity;
 pub mod rearrangement;
 pub mod regularisation;
 pub mod role;
+pub mod settling;
 pub mod side_wall;
 pub mod suspension;
 pub mod transport;

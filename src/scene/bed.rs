@@ -13,8 +13,8 @@ use serde::{Deserialize, Serialize};
 use super::{Given, Grains, SceneNumber};
 use crate::case::Fault;
 use crate::case::tables::{Fluid, Oscillation, Shape, SlopeDefinition, standard_gravity};
-use crate::closures::drag::DallavalleGrain;
 use crate::closures::lid::{self, Lid};
+use crate::closures::settling;
 
 /// Von Karman's constant, in the Rouse number.
 const KAPPA: f64 = 0.41;
@@ -230,12 +230,12 @@ impl BedScene {
         Some((self.shields_drive()? * self.stress_scale() / self.fluid.density).sqrt())
     }
 
-    /// Settling velocity [m/s]: given, or that of a sphere alone with the drag `0.4 + 24.4/Re`.
+    /// Settling velocity [m/s]: given, or that of a sphere alone ([`settling`]).
     #[must_use]
     pub fn settling_velocity(&self) -> Given {
         let Grains { diameter, density, settling_velocity, .. } = self.grains;
         let buoyant = (density / self.fluid.density - 1.0) * self.flow.gravity;
-        let sphere = || DallavalleGrain::default().settling_velocity(buoyant, self.nu(), diameter);
+        let sphere = || settling::sphere(buoyant, self.nu(), diameter);
         settling_velocity.map_or_else(|| Given::Derived(sphere()), Given::Given)
     }
 
@@ -250,11 +250,7 @@ impl BedScene {
                 ((s - 1.0) * self.flow.gravity * d * d * d).sqrt() / nu,
                 "((ρ_p/ρ_f - 1) g d³)^(1/2)/ν",
             ),
-            SceneNumber::new(
-                "settling_velocity_m_s",
-                w_s,
-                "w_s: given, or of a sphere alone with C_D = 0.4 + 24.4 ν/(w_s d)",
-            ),
+            SceneNumber::new("settling_velocity_m_s", w_s, "w_s: given, or of a sphere alone, Cheng (2009)"),
         ];
         numbers.extend(self.flow.depth.map(|depth| SceneNumber::new("submergence", depth / d, "depth over d")));
         let Some((theta, u_star)) = self.shields_drive().zip(self.u_star_drive()) else { return numbers };

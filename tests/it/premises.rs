@@ -4,7 +4,7 @@ use bedload::case::CaseError;
 use bedload::model::Checked;
 use bedload::result::{Outcome, quantity as q};
 
-use crate::support::{Scratch, load, parse, run};
+use crate::support::{Scratch, load, parse, run, solve};
 
 /// A laminar bed in water, as the closed form and as the solver take it.
 const IN_WATER: &str = r#"
@@ -99,4 +99,26 @@ fn a_person_reads_of_it() {
     assert!(scratch.read("runs/water/report.html").contains("flow/laminar"));
     let slow = scratch.bedload(["run", "exact_1d_ouriemi"]).exits(0).out;
     assert!(!slow.contains("flow/laminar"), "{slow}");
+}
+
+#[test]
+fn coarser_sand_does_not_keep_the_settling_velocity_of_finer_sand() {
+    let coarser = |more: &[&str]| {
+        let set = [&["grains.diameter=0.5 mm"], more].concat();
+        let outcome = solve("sheet_1d_type_b", &set).unwrap();
+        let flagged = outcome.validity.iter().any(|v| v.closure == "grains/settling velocity");
+        (outcome.results.get("transport_rate_dimensionless").unwrap(), flagged)
+    };
+    let (old, flagged) = coarser(&[]);
+    assert!((old / 79.0 - 1.0).abs() < 0.01 && flagged, "{old}");
+    let (derived, flagged) = coarser(&["closures.suspension.settling_velocity="]);
+    assert!((derived / 22.6 - 1.0).abs() < 0.01 && !flagged, "{derived}");
+    // The coarser the sand, the less is carried at one Shields number.
+    let rate = |d: &str| {
+        let set =
+            [format!("grains.diameter={d}"), "closures.suspension.settling_velocity=".into(), "bed.level=24 mm".into()];
+        solve("sheet_1d_type_b", &set).unwrap().results.get("transport_rate_dimensionless").unwrap()
+    };
+    let rates = ["0.2 mm", "0.25 mm", "0.35 mm", "0.5 mm"].map(rate);
+    assert!(rates.windows(2).all(|pair| pair[1] < pair[0]), "{rates:?}");
 }

@@ -56,26 +56,11 @@ fn exponent() -> f64 {
     3.1
 }
 
-impl Default for DallavalleGrain {
-    fn default() -> Self {
-        Self { constant: constant(), exponent: exponent() }
-    }
-}
-
 impl DallavalleGrain {
     /// Constants of the law.
     #[must_use]
     pub fn constants(&self) -> Vec<Constant> {
         vec![("C_∞", self.constant, ""), ("n", self.exponent, "")]
-    }
-
-    /// Settling velocity [m/s] of one grain in a fluid at rest: the root of `(4/3) g' d = C_inf w^2 + 24.4 (nu/d) w`, with
-    /// the buoyant gravity `g' = (rho_p/rho_f - 1) g` [m/s2]; 0 for a grain that does not sink.
-    #[must_use]
-    pub fn settling_velocity(&self, buoyant: f64, nu: f64, d: f64) -> f64 {
-        let (viscous, weight) = (self.viscous(nu, d), 4.0 / 3.0 * buoyant.max(0.0) * d);
-        // The root in a form that neither loses digits nor divides by a constant of 0.
-        2.0 * weight / (viscous + (viscous * viscous + 4.0 * self.constant * weight).sqrt())
     }
 
     /// `(pi d^2/8) rho_f (1 - phi)^(-n)` [kg/m]: the drag over `C_D |w| w` without hindrance.

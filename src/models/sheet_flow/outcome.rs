@@ -11,9 +11,9 @@ use super::problem::PseudoTime;
 use super::profile::profile;
 use super::solve::{self, Solved};
 use crate::closures::dilatancy::phi_i;
-use crate::closures::drag::DallavalleGrain;
 use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE};
 use crate::closures::lid::Lid;
+use crate::closures::settling;
 use crate::closures::suspension::Settling;
 use crate::closures::{Info, Range};
 use crate::models::BedError;
@@ -31,7 +31,7 @@ const THICKNESS: Range = Range { variable: "sheet_thickness_m/d", min: 3.0, max:
 /// Sheet flow proper.
 const SHEET: Range = Range { variable: "shields", min: 0.5, max: f64::INFINITY };
 
-/// A given settling velocity over that of a sphere of this diameter and density: cylinders of Sumer et al. (1996) have 0.73.
+/// A given settling velocity over that of a sphere of this diameter and density: cylinders of Sumer et al. (1996) have 0.93.
 const SETTLING: Range = Range { variable: "w_s over that of a sphere", min: 1.0 / 1.5, max: 1.5 };
 
 /// Scaled numbers from which on products of a few of them overflow.
@@ -297,7 +297,7 @@ fn validity<F: FrictionLaw>(sheet: &SheetFlow<F>, results: &Results, layers: &La
     }
     if let Some(w_s) = sheet.suspension.settling_velocity() {
         let buoyant = (sheet.rho_p / sheet.rho_f - 1.0) * sheet.g;
-        let sphere = DallavalleGrain::default().settling_velocity(buoyant, sheet.eta / sheet.rho_f, sheet.d);
+        let sphere = settling::sphere(buoyant, sheet.eta / sheet.rho_f, sheet.d);
         found.extend(outside("grains/settling velocity".into(), &SETTLING, w_s / sphere));
     }
     if let Some(thickness) = results.get(q::SHEET_THICKNESS.name) {
