@@ -146,6 +146,9 @@ impl Comparison {
     pub(super) fn inputs_section(&self) -> Section<'static> {
         let shown = |value: &Option<Value>| match value {
             None => Cell::Empty("not an input"),
+            Some(Value::Number(whole)) if !whole.is_f64() => {
+                Cell::Number { shown: whole.to_string(), full: whole.to_string() }
+            }
             Some(Value::Number(number)) => {
                 let value = number.as_f64().unwrap_or(f64::NAN);
                 Cell::Number { shown: significant(value, 5), full: number.to_string() }
