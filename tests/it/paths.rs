@@ -48,7 +48,7 @@ fn names_that_are_almost_shipped_cases() {
 fn a_file_of_the_name_of_a_shipped_case_comes_first() {
     let scratch = Scratch::new();
     scratch.write("exact_1d_bagnold", "format = 2\n");
-    refused(&scratch, &["check", "exact_1d_bagnold"], "missing-table", &["[model]"]);
+    refused(&scratch, &["check", "exact_1d_bagnold"], "missing-key", &["missing key scene"]);
     scratch.bedload(["check", "exact_1d_bagnold.toml"]).exits(0);
 }
 
