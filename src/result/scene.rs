@@ -49,7 +49,7 @@ pub fn differences(first: &Map<String, Value>, second: &Map<String, Value>) -> V
     };
     let known = first.iter().filter_map(|(path, value)| {
         let there = second.get(path);
-        (!there.is_some_and(|there| same(value, there))).then(|| (path, Some(value), there))
+        (!there.is_some_and(|there| same(value, there))).then_some((path, Some(value), there))
     });
     let only_second = second.iter().filter(|(path, _)| !first.contains_key(*path));
     known

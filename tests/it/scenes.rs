@@ -145,26 +145,26 @@ fn what_is_wrong_with_a_flow_is_said_at_its_place() {
 #[test]
 fn a_flow_is_run_compared_and_migrated_on_the_command_line() {
     let scratch = Scratch::new();
-    scratch.write("flow.toml", &flow());
-    let out = scratch.bedload(&["check", "flow.toml", "--model", "coupled"]).exits(0).out;
+    scratch.write("flow.toml", flow());
+    let out = scratch.bedload(["check", "flow.toml", "--model", "coupled"]).exits(0).out;
     assert!(out.contains("valid, coupled, 1448 levels"), "{out}");
-    scratch.bedload(&["check", "flow.toml"]).exits(2);
-    scratch.bedload(&["run", "flow.toml", "--model", "sheet-flow", "--quiet"]).exits(0);
+    scratch.bedload(["check", "flow.toml"]).exits(2);
+    scratch.bedload(["run", "flow.toml", "--model", "sheet-flow", "--quiet"]).exits(0);
     assert_eq!(scratch.names("runs"), ["flow-sheet-flow"]);
     let arguments = ["compare", "flow.toml", "--model", "sheet-flow", "--model", "two-fluid", "--json"];
-    let found: Value = scratch.bedload(&arguments).exits(0).json();
+    let found: Value = scratch.bedload(arguments).exits(0).json();
     let names: Vec<&str> = found["subjects"].as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect();
     assert_eq!(names, ["flow-sheet-flow", "flow-two-fluid"]);
     for row in found["inputs"].as_array().unwrap() {
         let table = row["path"].as_str().unwrap().split('.').next().unwrap();
         assert!(!["fluid", "grains", "bed", "flow"].contains(&table), "the flow is the same: {row}");
     }
-    scratch.bedload(&["migrate", "sheet_1d_theta06", "new.toml"]).exits(0);
-    scratch.bedload(&["migrate", "sheet_1d_theta06", "new.toml"]).exits(2);
+    scratch.bedload(["migrate", "sheet_1d_theta06", "new.toml"]).exits(0);
+    scratch.bedload(["migrate", "sheet_1d_theta06", "new.toml"]).exits(2);
     assert!(scratch.read("new.toml").starts_with("format = 2\nscene = \"bed\"\n"));
     let rate = |case: &str| {
         let found: Value =
-            scratch.bedload(&["run", case, "--json", "--out", case.trim_end_matches(".toml")]).exits(0).json();
+            scratch.bedload(["run", case, "--json", "--out", case.trim_end_matches(".toml")]).exits(0).json();
         found["results"]["transport_rate_m2_s"]["value"].as_f64().unwrap()
     };
     assert_eq!(rate("new.toml"), rate("sheet_1d_theta06"));
