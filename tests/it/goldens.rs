@@ -83,7 +83,7 @@ impl Checked {
 }
 
 /// Points that `chart` and both kinds of `converge` make of a case.
-fn points(name: &str) -> Vec<Point> {
+pub(super) fn points(name: &str) -> Vec<Point> {
     let request = chart::Request { cases: vec![name.into()], overrides: vec![], quantity: None, reference: None };
     let mut points = chart::plan(&REGISTRY, &request).map(|(plan, _)| plan.points).unwrap_or_default();
     for over in [converge::Over::Regularisation, converge::Over::Mesh] {

@@ -6,8 +6,10 @@ use bedload::case::{Case, CaseError, shipped};
 use bedload::model::Problem;
 
 use bedload::scene::Scene;
+use rayon::prelude::*;
 use serde_json::Value;
 
+use super::goldens::points;
 use crate::support::{REGISTRY, Scratch, project, run};
 
 fn converted(case: &Case) -> String {
@@ -33,6 +35,25 @@ fn the_conversion_of_a_case_is_the_same_problem_to_the_bit() {
         assert_eq!(second.resolved(), text, "{name}");
         assert_eq!(converted(&second), text, "{name}");
     }
+}
+
+/// The same of every point that the studies make of a case.
+#[test]
+fn the_conversion_of_a_point_of_a_study_is_the_same_problem_to_the_bit() {
+    let moved: Vec<String> = shipped::names()
+        .par_bridge()
+        .flat_map_iter(|name| {
+            points(name).into_iter().filter_map(move |point| {
+                let case = point.case.as_deref().unwrap_or(name);
+                let (first, problem) = REGISTRY.load(case, &point.overrides).ok()?;
+                let same = REGISTRY.parse("scene", "scene.toml", converted(&first), &[]).ok().map(|(_, same)| same);
+                let text = |problem: &Problem| format!("{:?}", problem.solver());
+                let moved = same.is_none_or(|same| text(&problem) != text(&same));
+                moved.then(|| format!("{case} with {:?}", point.overrides))
+            })
+        })
+        .collect();
+    assert!(moved.is_empty(), "{}", moved.join("\n"));
 }
 
 /// One flow with the tables of three models.
