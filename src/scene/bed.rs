@@ -173,6 +173,19 @@ impl From<Lid> for Top {
 }
 
 impl Top {
+    /// Its word in a case.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::FreeSurface => "free-surface",
+            Self::Plane => "plane",
+            Self::Stress(_) => "stress",
+            Self::Solved => "solved",
+            Self::ColebrookWhite(_) => "colebrook-white",
+            Self::OverFixedGrains { .. } => "over-fixed-grains",
+        }
+    }
+
     /// The law of the stress on the top of a turbulent flow; `None` for a top that is none of them.
     #[must_use]
     pub fn lid(&self) -> Option<Lid> {

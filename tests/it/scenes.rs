@@ -153,6 +153,17 @@ fn what_is_wrong_with_a_flow_is_said_at_its_place() {
         let hit = |(c, p, t): &(String, String, String)| c == code && p == path && t.contains(words);
         assert!(found.iter().any(hit), "{code} at {path}: {found:?}");
     }
+    for (key, model) in [
+        ("oscillation = { amplitude = \"10 Pa/m\", period = \"5 s\" }", "sheet-flow"),
+        ("pressure_gradient = \"10 Pa/m\"", "two-fluid"),
+        ("top = \"plane\"", "two-fluid"),
+        ("u_star = \"0.1 m/s\"", "coupled"),
+    ] {
+        let name = key.split(' ').next().unwrap();
+        let found = wrong(of(model, &changed("slope = 0.05", &format!("slope = 0.05\n{key}")), &[]));
+        let hit = |(code, path, _): &(String, String, String)| code == "not-used" && *path == format!("flow.{name}");
+        assert!(found.iter().any(hit), "{key} in {model}: {found:?}");
+    }
     let without = flow().replace("restitution = 0.7\n", "");
     assert_eq!(sheet(&without), [], "sheet flow does not need it");
     let found = wrong(of("two-fluid", &without, &[]));

@@ -15,7 +15,7 @@ use crate::dem::{Bottom, GrainBed};
 use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
 use crate::models::BedFault;
 use crate::models::coupled::CoupledFault;
-use crate::models::{GrainCell, layers, needed, touching};
+use crate::models::{GrainCell, layers, needed, solves, touching};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Figure, Outcome};
 use crate::scene::{Bed, BedFlow, BedScene, Top};
@@ -147,6 +147,7 @@ impl Model for Coupled {
         let contact = closures.contact.of(grains, faults);
         let layers = layers(table.layers, &scene.bed, grains.diameter, faults);
         let width = cell.across(scene.flow.width, faults);
+        solves(Self::INFO.name, &scene.flow, &["slope"], &["free-surface", "over-fixed-grains"], faults);
         needed("flow.slope", scene.flow.slope, faults);
         let beta = scene.flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok().flatten();
         let d = grains.diameter;

@@ -12,8 +12,8 @@ use crate::closures::friction::{self, Coulomb, MuIv};
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::role::{Only, choice};
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
-use crate::models::BedFault;
 use crate::models::exact::ExactFault;
+use crate::models::{BedFault, solves};
 use crate::scene::{self, BedFlow, BedScene, Top};
 
 /// A flow between two planes over a bed. Exactly one drive.
@@ -255,6 +255,7 @@ pub(in crate::models) fn laminar_bed(
     faults: &mut Faults,
 ) -> Option<LaminarBed> {
     let BedScene { fluid, grains, bed, flow } = scene;
+    solves(model, flow, &["pressure_gradient", "shields", "section"], &["plane"], faults);
     let (level, phi, depth) = (bed.thickness?, bed.phi?, flow.depth?);
     let height = level + depth;
     if depth <= 0.0 {

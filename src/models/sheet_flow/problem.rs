@@ -20,7 +20,7 @@ use crate::model::{
     Term, TermTest, TurbulentScene,
 };
 use crate::models::sheet_flow::SheetFlowFault;
-use crate::models::{BedFault, RegularisationSize, needed};
+use crate::models::{BedFault, RegularisationSize, needed, solves};
 use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
@@ -182,14 +182,9 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             .zip(DRIVES)
             .filter_map(|(given, name)| given.map(|_| name.to_owned()))
             .collect();
-        let Some(lid) = flow.top.lid() else {
-            let allowed = "free-surface, stress, solved, colebrook-white".to_owned();
-            faults.push((
-                "flow.top",
-                Fault::WrongType { name: "flow.top".into(), found: "no top of this model", expected: allowed },
-            ));
-            return None;
-        };
+        const TOPS: [&str; 4] = ["free-surface", "stress", "solved", "colebrook-white"];
+        solves(Self::INFO.name, flow, &DRIVES, &TOPS, faults);
+        let lid = flow.top.lid()?;
         let solved = lid == Lid::Solved;
         let complete = if solved { flow.slope.is_some() && drives.len() == 2 } else { drives.len() == 1 };
         if !complete {

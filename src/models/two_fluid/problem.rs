@@ -14,7 +14,7 @@ use crate::model::{
     TurbulentScene,
 };
 use crate::models::two_fluid::TwoFluidFault;
-use crate::models::{BedFault, needed};
+use crate::models::{BedFault, needed, solves};
 use crate::result::Context;
 use crate::result::{Failure, Figure, Outcome};
 use crate::scene::{Bed, BedFlow, BedScene, Top};
@@ -150,6 +150,7 @@ impl Model for OnMesh<TwoFluid> {
     fn build(scene: &BedScene, table: &TwoFluidTable, faults: &mut Faults) -> Option<Self> {
         let BedScene { fluid, grains, flow, bed: Bed { thickness, phi } } = scene;
         let TwoFluidTable { closures, regularisation, solver, phi_max, .. } = table;
+        solves(Self::INFO.name, flow, &["oscillation", "shields", "slope"], &["free-surface"], faults);
         let thickness = needed("bed.thickness", *thickness, faults);
         let phi = needed("bed.phi", *phi, faults);
         let slope = needed("flow.slope", flow.slope, faults);
