@@ -65,8 +65,8 @@ fn ratio(run_of: &Run, shields: f64, changes: &[&str]) -> Result<f64, Box<dyn Er
     let mut settings: Vec<String> = vec![
         format!("grains.diameter={d}"),
         "grains.density=2247".into(),
-        format!("bed.level={}", BED * d),
-        format!("flow.height={}", (BED + run_of.depth) * d),
+        format!("bed.thickness={}", BED * d),
+        format!("flow.depth={}", run_of.depth * d),
         "flow.pressure_gradient=".into(),
         format!("flow.shields={shields}"),
     ];

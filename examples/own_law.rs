@@ -45,6 +45,13 @@ impl Law for Power {
     const INFO: &'static Info = &INFO;
 }
 
+/// That of spheres (Maurin et al. 2016), as mu(I) has it.
+impl Default for Power {
+    fn default() -> Self {
+        Self { mu_s: 0.35, mu_2: 0.97, i_0: 0.69, n: 1.0 }
+    }
+}
+
 impl FrictionLaw for Power {
     fn mu<T: Real>(&self, i: T) -> T {
         let rise = i.powf(self.n);
@@ -80,7 +87,7 @@ pub fn registry() -> Registry {
 /// The reference flow with this law: `n` of the rise.
 pub fn reference(n: f64) -> Result<Problem, Box<dyn Error>> {
     let friction = format!("closures.friction={{ law = \"power\", mu_s = 0.35, mu_2 = 0.97, i_0 = 0.69, n = {n} }}");
-    Ok(registry().load("sheet_1d_theta06", &[friction])?.1)
+    Ok(registry().load("flow_theta06-sheet-flow", &[friction])?.1)
 }
 
 /// Transport rates over the exponent.

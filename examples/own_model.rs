@@ -6,7 +6,7 @@
 use std::error::Error;
 use std::path::Path;
 
-use bedload::case::tables::{Fluid, Grid};
+use bedload::case::tables::Grid;
 use bedload::cli;
 use bedload::closures::{Info, Standing};
 use bedload::model::{Focus, Meshes, ONE_KIND, StudyPlan, number};
@@ -17,9 +17,9 @@ use bedload::study::{Conducted, Observer, Settings, conduct, converge, sweep};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-/// `[flow]` of the film.
+/// `[thin-film.geometry]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FilmFlow {
+pub struct FilmGeometry {
     /// Thickness of the film.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
     pub height: f64,
@@ -28,22 +28,7 @@ pub struct FilmFlow {
     pub sine: f64,
 }
 
-/// `[model]` of the film.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FilmModel {
-    /// What kind of model: a film down a slope.
-    pub kind: FilmKind,
-}
-
-/// The kind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum FilmKind {
-    /// A film down a slope.
-    ThinFilm,
-}
-
-/// `[closures]` of the film.
+/// `[thin-film.closures]`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FilmClosures {
     /// How the stress goes with the shear rate.
@@ -83,28 +68,11 @@ impl Viscosity {
     }
 }
 
-bedload::tables! {
-    /// A film of a shear-thinning fluid down a slope.
-    pub struct FilmTables {
-        /// The fluid.
-        fluid: Fluid,
-        /// Geometry and drive.
-        flow: FilmFlow,
-        /// The model.
-        model: FilmModel,
-        /// Laws.
-        closures: FilmClosures,
-        /// Levels of the profile.
-        #[serde(default)]
-        grid: Grid,
-    }
-}
-
 bedload::part! {
     /// A film of a shear-thinning fluid down a slope.
     pub struct FilmTable {
         /// Geometry and drive.
-        geometry: FilmFlow,
+        geometry: FilmGeometry,
         /// Laws.
         closures: FilmClosures,
         /// Levels of the profile.
@@ -160,7 +128,7 @@ impl MethodError for Compressible {
     }
 
     fn hint(&self) -> String {
-        "a thinner film (flow.height), or a smaller flow.sine".into()
+        "a thinner film (geometry.height), or a smaller geometry.sine".into()
     }
 }
 
@@ -178,19 +146,12 @@ pub struct Film {
 }
 
 impl Model for Film {
-    const INFO: ModelInfo = ModelInfo::new("thin-film");
+    const INFO: ModelInfo = ModelInfo::new("thin-film").taking(&["fluid"]);
     type Scene = BenchmarkScene;
     type Table = FilmTable;
-    type Tables = FilmTables;
-
-    fn split(tables: &FilmTables) -> (BenchmarkScene, FilmTable) {
-        let FilmTables { fluid, flow, closures, grid, check, limit, .. } = tables.clone();
-        let scene = BenchmarkScene { fluid: Some((&fluid).into()), grains: None };
-        (scene, FilmTable { geometry: flow, closures, grid, check, limit })
-    }
 
     fn build(scene: &BenchmarkScene, table: &FilmTable, faults: &mut Faults) -> Option<Self> {
-        let (fluid, FilmTable { geometry: flow, closures, grid, .. }) = (scene.fluid?, table);
+        let (fluid, FilmTable { geometry: flow, closures, grid, .. }) = (faults.needed("fluid", scene.fluid)?, table);
         let Viscosity::Power { n, .. } = closures.viscosity;
         if grid.cells as f64 * n < FEWEST {
             faults.push(("grid.cells", TooCoarse { cells: grid.cells, least: (FEWEST / n).ceil() }));
@@ -243,11 +204,12 @@ impl Solve for Film {
 
 /// A case of the film.
 pub const CASE: &str = r#"
-format = 1
+format = 2
+scene = "benchmark"
 case.title = "A shear-thinning film"
 fluid = { density = "1000 kg/m3", viscosity = "0.1 Pa s" }
-flow = { height = "10 mm", sine = 0.05 }
-model.kind = "thin-film"
+[thin-film]
+geometry = { height = "10 mm", sine = 0.05 }
 closures.viscosity = { law = "power", n = 0.5, rate = "1 1/s" }
 "#;
 
@@ -277,7 +239,7 @@ pub fn studies(folder: &Path) -> Result<[Conducted; 2], Box<dyn Error>> {
         (settings.out, settings.threads) = (Some(folder.join(name)), 1);
         settings
     };
-    let (plan, assess) = sweep::plan(&case, &[], &["flow.sine=0.02,0.04,0.08".into()])?;
+    let (plan, assess) = sweep::plan(&case, &[], &["geometry.sine=0.02,0.04,0.08".into()])?;
     let swept = conduct(&plan, &settings("sweep"), Box::new(|_, _| (Vec::new(), assess)))?;
     let (plan, assess) = converge::plan(&registry, &converge::Request::new(&case, converge::Over::Mesh))?;
     let converged = conduct(&plan, &settings("converge"), Box::new(|_, _| (Vec::new(), assess)))?;

@@ -1,6 +1,6 @@
 //! What a user of the library writes with: `use bedload::prelude::*`. Not used inside.
 
-pub use crate::case::{Case, CaseError, CaseFault, Tables};
+pub use crate::case::{Case, CaseError, CaseFault};
 pub use crate::model::{
     Checked, Description, Entry, Faults, Model, ModelInfo, OnMesh, Problem, Registry, Simulation, Solve, checked, read,
 };
@@ -10,4 +10,3 @@ pub use crate::result::{
     quantity,
 };
 pub use crate::scene::{BedScene, BenchmarkScene, ChannelScene, GranularScene, Scene};
-pub use crate::tables;

@@ -79,7 +79,7 @@ fn figures_5_and_6() -> Fallible<()> {
 }
 
 const BEDS: [(&str, &str); 2] = [("section_2d_square_bed", "square"), ("section_2d_circle_bed", "circle")];
-const TWO_FLUID: [&str; 2] = ["model.form=two-fluid", "closures.drag.law=carman-kozeny"];
+const TWO_FLUID: [&str; 2] = ["form=two-fluid", "closures.drag.law=carman-kozeny"];
 
 /// Figures 10 and 13: velocity in the sections, with bed level and yield surface.
 fn figures_10_and_13() -> Fallible<()> {

@@ -154,7 +154,7 @@ pub fn figure_3() -> Fallible<()> {
 
 /// The bed of section 3.2 of the paper, in both forms, with its closed form.
 fn planes_bed(slips: bool) -> Fallible<(DuctFlow, ouriemi::Solution)> {
-    let case = if slips { "exact_1d_ouriemi" } else { "exact_1d_ouriemi_mixed" };
+    let case = if slips { "bed_ouriemi-laminar-exact" } else { "exact_1d_ouriemi_mixed" };
     let bed = read::<OnMesh<LaminarBed>>(case, &[]).map_err(|e| e.render(false))?.problem;
     let exact = ouriemi::solve(&bed, |_| {}).map_err(|e| e.to_string())?;
     Ok((between(F * bed.stress_scale() / bed.h, Contents::Bed(bed)), exact))

@@ -8,8 +8,8 @@
 mod laminar;
 mod turbulent;
 
-use crate::case::CaseError;
-use crate::model::{self, Flow, Offer, Registry, TermTest};
+use crate::case::{Case, CaseError};
+use crate::model::{self, Checked, Flow, ModelInfo, Offer, OwnCase, Registry, TermTest};
 use crate::result::Context;
 
 use crate::result::quantity as q;
@@ -45,16 +45,14 @@ pub struct Term {
 /// The least model that serves.
 #[derive(Clone, Debug)]
 pub struct Least {
-    /// `kind` of the model
+    /// the model
     pub kind: &'static str,
     /// whether its results are means of fluctuating quantities
     pub stochastic: bool,
     /// why this one
     pub because: String,
-    /// shipped case of that model, to start from
-    pub template: &'static str,
-    /// what is changed in it so that it is this scene; `None` where the case of the scene is of that model already
-    pub overrides: Option<Vec<String>>,
+    /// its case for this scene, every default filled in; `None` where the case that was given is of that model already
+    pub case: Option<String>,
 }
 
 /// What is reported of a scene.
@@ -138,17 +136,26 @@ impl AdviseError {
     }
 }
 
-/// Advice for the scene of `case` with `overrides`: terms that change the transport rate by less than `tolerance` can go.
+/// Advice for the scene of `case` with `overrides`: terms that change the transport rate by less than `tolerance` can go. A case may be a
+/// scene alone.
 ///
 /// # Errors
 /// [`AdviseError::Case`]; [`AdviseError::OneModel`] for cases that are no scene; [`AdviseError::NoFlow`] and [`AdviseError::NoBed`].
 pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: f64) -> Result<Advice, AdviseError> {
-    let (_, problem) = registry.load(case, overrides).map_err(Box::new)?;
+    let (alone, (case, problem)) = match registry.load(case, overrides) {
+        Ok(checked) => (false, checked),
+        // Any model that takes the scene says which flow it is.
+        Err(error) if error.choices().is_some() => {
+            let any = registry.takers(case, overrides).next().ok_or_else(|| Box::new(error))?;
+            (true, any)
+        }
+        Err(error) => return Err(Box::new(error).into()),
+    };
     let no_flow = |failure: Failure| AdviseError::NoFlow(failure.error);
     let Some(mut flow) = problem.solver().flow().map_err(no_flow)? else {
         return Err(AdviseError::OneModel { model: problem.kind.into() });
     };
-    let subject = Subject { registry, case, overrides, tolerance };
+    let subject = Subject { registry: registry.clone().choosing(case.model), case: &case, tolerance };
     let numbers = match &flow {
         Flow::Laminar(bed) => laminar::numbers(bed, subject.solve(&[]).as_ref()),
         Flow::Turbulent(bed) if bed.theta.is_finite() && bed.weight() < 1.0 => turbulent::numbers(bed),
@@ -157,7 +164,8 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
         }
     };
     let mut terms = Vec::new();
-    for term in problem.solver().terms() {
+    let own = if alone { Vec::new() } else { problem.solver().terms() };
+    for term in own {
         let Some(assessed) = subject.assess(&term) else { continue };
         if let Some(drop) = term.dropped.filter(|_| !assessed.keep) {
             drop(&mut flow);
@@ -165,12 +173,33 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
         terms.push(assessed);
     }
     let offers = registry.entries().filter_map(|entry| Some((entry.info, entry.offer(&flow, tolerance)?)));
-    let Some((info, offer)) = offers.min_by_key(|(_, offer)| offer.effort) else {
-        return Err(AdviseError::OneModel { model: problem.kind.into() });
-    };
-    let Offer { because, template, overrides, .. } = offer;
-    let least = Least { kind: info.name, stochastic: info.stochastic, because, template, overrides };
-    Ok(Advice { numbers, least, terms })
+    let mut offers: Vec<(ModelInfo, Offer)> = offers.collect();
+    offers.sort_by_key(|(_, offer)| offer.effort);
+    let mut refused = None;
+    for (info, Offer { because, case: own, .. }) in offers {
+        let same = !alone && info.name == case.model && problem.solver().flow().is_ok();
+        let drops =
+            matches!(&own, OwnCase::Scene(changes) if !changes.is_empty()) && terms.iter().any(|term| !term.keep);
+        let (kind, stochastic) = (info.name, info.stochastic);
+        if same && !drops {
+            return Ok(Advice { numbers, least: Least { kind, stochastic, because, case: None }, terms });
+        }
+        match subject.of(kind, &own) {
+            Ok((own, least)) => {
+                if alone {
+                    let subject = Subject { registry: registry.clone().choosing(kind), case: &own, tolerance };
+                    terms.extend(least.solver().terms().iter().filter_map(|term| subject.assess(term)));
+                }
+                let resolved = own.resolved();
+                // The claims of the case are not those of another model.
+                let text = resolved.split("\n[[").next().unwrap_or(&resolved).trim_end();
+                let case = Some(format!("{text}\n"));
+                return Ok(Advice { numbers, least: Least { kind, stochastic, because, case }, terms });
+            }
+            Err(error) => refused = refused.or(Some(AdviseError::Refused { kind, error: Box::new(error) })),
+        }
+    }
+    Err(refused.unwrap_or_else(|| AdviseError::OneModel { model: problem.kind.into() }))
 }
 
 impl Advice {
@@ -179,40 +208,46 @@ impl Advice {
     /// # Errors
     /// [`AdviseError::Refused`] if that model refuses the scene, [`AdviseError::Fails`] if it finds no flow.
     pub fn case(&self, registry: &Registry) -> Result<Option<String>, AdviseError> {
-        let Some(overrides) = &self.least.overrides else { return Ok(None) };
-        let title = format!("case.title=The least model of a scene: {}", self.least.kind);
-        let overrides = [&overrides[..], &[title]].concat();
+        let Some(text) = &self.least.case else { return Ok(None) };
         let kind = self.least.kind;
-        let (case, problem) = registry
-            .load(self.least.template, &overrides)
+        let (_, problem) = registry
+            .parse("advised", "advised", text.clone(), &[])
             .map_err(|error| AdviseError::Refused { kind, error: error.into() })?;
         // A continuum takes milliseconds: what is written has a solution.
         if !problem.stochastic {
             let no_case = |failure: Failure| AdviseError::Fails { kind, error: failure.error };
             Context::quiet(|context| problem.run(context)).map_err(no_case)?;
         }
-        // The claims of the template are not those of this scene.
-        let resolved = case.resolved();
-        let own = resolved.split("[[check]]").next().unwrap_or(&resolved).trim_end();
-        Ok(Some(format!(
-            "# Written by `bedload advise`: the least model that serves, from {}, whose constants of the laws it has.\n{own}\n",
-            self.least.template
-        )))
+        Ok(Some(format!("# Written by `bedload advise`: the least model that serves, {kind}, for this scene.\n{text}")))
     }
 }
 
 /// The case that is advised on.
 struct Subject<'a> {
-    registry: &'a Registry,
-    case: &'a str,
-    overrides: &'a [String],
+    /// where the case is that of its model
+    registry: Registry,
+    case: &'a Case,
     tolerance: f64,
 }
 
 impl Subject<'_> {
     fn solve(&self, change: &[String]) -> Option<Results> {
-        let (_, problem) = self.registry.load(self.case, &[self.overrides, change].concat()).ok()?;
+        let Case { name, source, overrides, .. } = self.case;
+        let overrides = [overrides, change].concat();
+        let (_, problem) = self.registry.parse(name, source, self.case.text().to_owned(), &overrides).ok()?;
         Context::quiet(|context| problem.run(context)).ok().map(|outcome| outcome.results)
+    }
+
+    /// The case of the model `kind` for this scene.
+    fn of(&self, kind: &str, own: &OwnCase) -> Result<Checked, CaseError> {
+        let registry = self.registry.clone().choosing(kind);
+        match own {
+            OwnCase::Scene(changes) => {
+                let overrides = [self.case.overrides_of_the_flow(), changes.clone()].concat();
+                registry.parse(&self.case.name, &self.case.source, self.case.text().to_owned(), &overrides)
+            }
+            OwnCase::Other(text) => registry.parse(&self.case.name, "advised", text.clone(), &[]),
+        }
     }
 
     /// Whether the scene needs a term: by a threshold, or by solving the case as it stands and without the term.

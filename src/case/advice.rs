@@ -13,6 +13,7 @@ impl CaseFault for Fault {
         match self {
             Self::Unknown { allowed, .. }
             | Self::NotUsed { allowed, .. }
+            | Self::Top { allowed, .. }
             | Self::UnknownWord { allowed, .. }
             | Self::LawMismatch { allowed, .. }
             | Self::WhichModel { allowed, .. }
@@ -22,6 +23,10 @@ impl CaseFault for Fault {
                 Some(allowed.clone())
             }
             Self::WrongType { expected, .. } => Some(expected.clone()),
+            Self::OldFormat { scene: Some((scene, model)) } => {
+                Some(format!("format = 2 with scene = \"{scene}\" and a table [{model}]"))
+            }
+            Self::OldFormat { scene: None } => Some("format = 2 with a scene and the tables of its models".into()),
             Self::Unit { unit, .. } if unit == "1" => Some("a pure number".into()),
             Self::Unit { unit, .. } => Some(format!("a number in {unit}, or a text such as \"1 {unit}\"")),
             Self::TooSteep { definition: "sine", .. } => Some("less than 1".into()),
@@ -41,7 +46,13 @@ impl CaseFault for Fault {
             Self::Unknown { nearest, elsewhere, .. } => {
                 elsewhere.as_ref().map(|table| format!("it belongs to {table}")).or_else(|| meant(nearest))
             }
+            Self::NotUsed { users, .. } if users.is_empty() => Some("remove it".into()),
             Self::NotUsed { users, .. } => Some(format!("remove it; used by {}", users.join(", "))),
+            Self::Top { users, allowed, .. } => {
+                let other = allowed.first().map(|top| format!("top = \"{top}\"")).unwrap_or_default();
+                let users = if users.is_empty() { String::new() } else { format!("; solved by {}", users.join(", ")) };
+                Some(other + &users)
+            }
             Self::Missing { description, .. } if !description.is_empty() => Some(description.clone()),
             Self::Syntax { meant: Some(text), .. } | Self::Unit { meant: Some(text), .. } => Some(text.clone()),
             Self::Unit { error: UnitError::UnknownUnit { nearest: Some(n), .. }, .. } => {
@@ -50,16 +61,19 @@ impl CaseFault for Fault {
             Self::Unit { error: UnitError::NoUnit { text }, unit, .. } => {
                 Some(format!("write {text} without quotes if it is in {unit}, or \"{text} {unit}\""))
             }
-            Self::Drives { given, .. } if given.len() > 1 => {
-                Some("keep one; `--set flow.KEY=` (an empty value) removes a key".into())
+            Self::Drives { given, allowed } if given.len() > 1 => {
+                let pairs = allowed.iter().any(|drives| drives.contains(" and "));
+                let keep = if pairs { "keep one of these pairs" } else { "keep one" };
+                Some(format!("{keep}; `--set flow.KEY=` (an empty value) removes a key"))
             }
-            Self::Drives { .. } => Some("give exactly one".into()),
+            Self::Drives { .. } => Some("give one of these".into()),
             Self::BadSet { .. } => {
-                Some("for example --set flow.height=\"65 mm\"; an empty value removes the key".into())
+                Some("for example --set flow.depth=\"65 mm\"; an empty value removes the key".into())
             }
             Self::Empty | Self::Binary { .. } | Self::NotUtf8 { .. } => {
                 Some("`bedload new` writes a case to start from".into())
             }
+            Self::OldFormat { .. } => Some("`bedload migrate OLD.toml NEW.toml` writes it in format 2".into()),
             Self::WhichModel { .. } => Some("give the table of one model, or choose one with --model".into()),
             Self::OtherScene { .. } => Some("`bedload list models` shows what each one solves".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),

@@ -1,7 +1,5 @@
 //! Compares a document with the schema of its model: every violation at once, each with its place.
 
-use std::sync::Arc;
-
 use serde_json::{Map, Value, json};
 
 use super::angle::{self, Definition};
@@ -10,7 +8,7 @@ use super::fault::Fault;
 use super::kind::{Kind, Kinds};
 use super::violation::{Span, Violation};
 use super::wording::{choices, expected, header, shown};
-use super::{scene, schema};
+use super::{format1, scene, schema};
 use crate::closures::catalogue;
 
 /// What a document says, and what is wrong with it.
@@ -22,21 +20,21 @@ pub(super) struct Diagnosis<'k> {
 
 /// Reads a document as the kind of case that it names.
 pub(super) fn diagnose<'k>(document: &Document, kinds: &'k Kinds) -> Diagnosis<'k> {
-    let mut walk = Walk { kinds, kind: None, diameter: scene::diameter(document), violations: Vec::new() };
+    let mut walk =
+        Walk { kinds, kind: None, diameter: scene::diameter(document), violations: Vec::new(), complete: true };
     if matches!(&document.root.data, Data::Table(entries) if entries.is_empty()) {
         walk.report(Fault::Empty, "", &document.root.value);
         return Diagnosis { case: None, violations: walk.violations };
     }
-    if scene::is_scene(document) {
-        walk.kind = walk.choose_model(document);
-        let case = walk.kind.map(|kind| (kind, walk.value(&scene::view(document, kinds, kind), &kind.schema, "")));
-        return Diagnosis { case, violations: walk.violations };
+    if format1::is_old(document) {
+        return Diagnosis { case: None, violations: format1::refused(document) };
     }
-    walk.kind = walk.choose(document);
-    let case = walk.kind.map(|kind| (kind, walk.value(&document.root, &kind.schema, "")));
+    walk.kind = walk.choose_model(document);
+    let case = walk.kind.map(|kind| (kind, walk.value(&scene::view(document, kinds, kind), &kind.schema, "")));
     if case.is_none() {
         walk.without_kind(document);
     }
+    let case = case.filter(|_| walk.complete);
     Diagnosis { case, violations: walk.violations }
 }
 
@@ -52,12 +50,55 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, c)| c.to_owned())
 }
 
+/// The schema of the constants of a law, its name aside.
+fn without_law(schema: &Value) -> Value {
+    let mut schema = schema.clone();
+    if let Some(Value::Array(required)) = schema.get_mut("required") {
+        required.retain(|key| key != "law");
+    }
+    schema
+}
+
+/// The fault of a missing key or table of the table `path`.
+fn missing(name: &str, schema: &Value, path: &str) -> Fault {
+    let is_table = schema.get("properties").is_some() || path.is_empty() && schema::alternatives(schema).is_some();
+    let allowed = if is_table {
+        let keys: Vec<&str> = schema::properties(schema).map(|(k, _)| k.as_str()).collect();
+        format!("a table with {}", keys.join(", "))
+    } else {
+        expected(schema)
+    };
+    Fault::Missing {
+        what: if is_table { "table" } else { "key" },
+        name: match (is_table, path) {
+            (true, _) => format!("[{}]", join(path, name)),
+            (false, "") => name.into(),
+            (false, table) => format!("{name} in {}", header(table)),
+        },
+        description: schema::text(schema, "description").into(),
+        allowed,
+    }
+}
+
+impl Kinds {
+    /// The fault of a value of a case of `model` that is missing at `path`.
+    pub(super) fn missing(&self, model: &str, path: &str) -> Fault {
+        let schema = self.iter().find(|kind| kind.name == model).map(|kind| &kind.schema);
+        let parts = path.split('.').map(|name| format!("/properties/{name}"));
+        let schema = schema.and_then(|schema| schema.pointer(&parts.collect::<String>()));
+        let (table, name) = path.rsplit_once('.').unwrap_or(("", path));
+        missing(name, schema.unwrap_or(&Value::Null), table)
+    }
+}
+
 pub(super) struct Walk<'k> {
     pub(super) kinds: &'k Kinds,
     pub(super) kind: Option<&'k Kind>,
     /// diameter of the grains \[m], the unit `d` of a length
     pub(super) diameter: Option<f64>,
     violations: Vec<Violation>,
+    /// whether every value could be read that is not reported
+    complete: bool,
 }
 
 impl<'k> Walk<'k> {
@@ -65,61 +106,12 @@ impl<'k> Walk<'k> {
         self.violations.push(Violation::new(fault, path.to_owned(), span.clone()));
     }
 
-    /// The kind that `model.kind` and `model.solution` name; says what is wrong with them if none.
-    fn choose(&mut self, document: &Document) -> Option<&'k Kind> {
-        let tag = |key: &str| match document.node(&format!("model.{key}")).map(|n| &n.data) {
-            Some(Data::Text(word)) => Some(word.as_str()),
-            _ => None,
-        };
-        let mut kinds: Vec<&str> = self.kinds.iter().map(|s| s.tags().0).collect();
-        kinds.dedup();
-        let of_kind: Vec<&Kind> = self.kinds.iter().filter(|s| Some(s.tags().0) == tag("kind")).collect();
-        if of_kind.is_empty() {
-            self.tag(document, "kind", &kinds, "the model that is solved");
-            return None;
-        }
-        let solutions: Vec<&str> = of_kind.iter().filter_map(|s| s.tags().1).collect();
-        let found = of_kind.iter().find(|s| s.tags().1.is_none() || s.tags().1 == tag("solution"));
-        if found.is_none() {
-            self.tag(document, "solution", &solutions, "what is solved");
-        }
-        found.copied()
-    }
-
-    /// Says what is wrong with `model.<key>`, which should be one of `allowed`.
-    fn tag(&mut self, document: &Document, key: &str, allowed: &[&str], description: &str) {
-        let path = format!("model.{key}");
-        let span = document.locate(&path);
-        let allowed: Vec<String> = allowed.iter().map(|&a| a.to_owned()).collect();
-        let fault = match document.node(&path).map(|n| &n.data) {
-            Some(Data::Text(word)) => Fault::UnknownWord {
-                nearest: nearest(word, allowed.iter().map(String::as_str)),
-                name: path.clone(),
-                word: word.clone(),
-                allowed,
-            },
-            Some(other) => {
-                let expected = choices(allowed.iter().map(String::as_str));
-                Fault::WrongType { name: path.clone(), found: other.kind(), expected }
-            }
-            None if document.node("model").is_none() => Fault::Missing {
-                what: "table",
-                name: "[model]".into(),
-                description: "the model that is solved".into(),
-                allowed: format!("[model] with kind = \"{}\"", allowed.join("\" | \"")),
-            },
-            None => Fault::Missing {
-                what: "key",
-                name: format!("{key} in [model]"),
-                description: description.into(),
-                allowed: allowed.join(", "),
-            },
-        };
-        self.report(fault, &path, &span);
-    }
-
     /// Without a model only the names of tables can be checked.
     fn without_kind(&mut self, document: &Document) {
+        if document.node("format").is_none() {
+            let schema = self.kinds.iter().next().map(|kind| &kind.schema["properties"]["format"]);
+            self.missing("format", schema.unwrap_or(&Value::Null), "", &document.root.value);
+        }
         let Data::Table(entries) = &document.root.data else { return };
         let mut names: Vec<&str> = Vec::new();
         for (name, _) in self.kinds.iter().flat_map(|s| schema::properties(&s.schema)) {
@@ -136,6 +128,11 @@ impl<'k> Walk<'k> {
                 elsewhere: None,
                 allowed: names.iter().map(|&n| n.to_owned()).collect(),
             };
+            // A misspelt model is why no model was found.
+            if matches!(&fault, Fault::Unknown { nearest: Some(name), .. } if self.kinds.iter().any(|kind| kind.name == name))
+            {
+                self.violations.retain(|v| !matches!(v.fault.downcast_ref(), Some(Fault::WhichModel { .. })));
+            }
             self.report(fault, name, &node.key);
         }
     }
@@ -143,7 +140,8 @@ impl<'k> Walk<'k> {
     /// The value of `node` in plain SI; reports whatever is wrong on the way.
     fn value(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
         if let Some(alternatives) = schema::alternatives(schema) {
-            return self.tagged(node, &alternatives, path);
+            let usual = schema.pointer("/default/law").and_then(Value::as_str);
+            return self.tagged(node, &alternatives, usual, path);
         }
         if let Some(constants) = schema::constants(schema) {
             return self.word(node, &constants, path);
@@ -188,16 +186,25 @@ impl<'k> Walk<'k> {
         }
     }
 
-    fn tagged(&mut self, node: &Node, alternatives: &[(&str, &Value)], path: &str) -> Value {
+    fn tagged(&mut self, node: &Node, alternatives: &[(&str, &Value)], usual: Option<&str>, path: &str) -> Value {
         // A law without parameters is a word.
-        if let (Data::Text(_), Some(_)) = (&node.data, self.kind.and_then(|kind| kind.scene)) {
+        if let Data::Text(_) = &node.data {
             let (key, value) = (node.key.clone(), node.value.clone());
             let entries = vec![("law".to_owned(), node.clone())];
-            return self.tagged(&Node { data: Data::Table(entries), key, value }, alternatives, path);
+            return self.tagged(&Node { data: Data::Table(entries), key, value }, alternatives, usual, path);
         }
-        let Data::Table(entries) = &node.data else { return self.wrong(node, path, "a table") };
         let laws: Vec<&str> = alternatives.iter().map(|(law, _)| *law).collect();
+        let Data::Table(entries) = &node.data else {
+            return self.wrong(node, path, &format!("a table with law = {}", choices(laws)));
+        };
         let law_path = join(path, "law");
+        // A table that gives a constant alone is one of the usual law.
+        let named = entries.iter().any(|(key, _)| key == "law");
+        if let (false, Some((law, schema))) = (named, alternatives.iter().find(|(law, _)| Some(*law) == usual)) {
+            let mut value = self.table(node, &without_law(schema), path);
+            value["law"] = (*law).into();
+            return value;
+        }
         match entries.iter().find(|(k, _)| k == "law").map(|(_, n)| n) {
             Some(Node { data: Data::Text(law), value, .. }) => {
                 if let Some((_, schema)) = alternatives.iter().find(|(name, _)| name == law) {
@@ -236,10 +243,10 @@ impl<'k> Walk<'k> {
     /// Whether the family has a law of this name, here or in another model.
     fn is_law(&self, family: &str, law: &str) -> bool {
         let of = |kind: &'k Kind| {
-            let own = if kind.scene.is_some() { format!("/properties/{}", kind.name) } else { String::new() };
-            schema::alternatives(kind.schema.pointer(&format!("{own}/properties/closures/properties/{family}"))?)
+            let place = format!("/properties/{}/properties/closures/properties/{family}", kind.name);
+            schema::alternatives(kind.schema.pointer(&place)?)
         };
-        let elsewhere = self.kinds.beside(self.kind).iter().filter_map(of).flatten();
+        let elsewhere = self.kinds.iter().filter_map(of).flatten();
         catalogue().any(|info| info.family == family && info.law == law) || elsewhere.into_iter().any(|(l, _)| l == law)
     }
 
@@ -271,23 +278,6 @@ impl<'k> Walk<'k> {
                 self.missing(name, &schema["properties"][name], path, &node.key);
             }
         }
-        if let Some(drives) = schema::drives(schema) {
-            let given: Vec<&str> = drives.iter().copied().filter(|d| object.contains_key(*d)).collect();
-            let misspelt = given.is_empty() && drives.iter().any(|d| meant.iter().any(|m| m == d));
-            if given.len() != 1 && !misspelt {
-                let mut spans: Vec<Span> = given
-                    .iter()
-                    .filter_map(|d| entries.iter().find(|(k, _)| k == d))
-                    .map(|(_, n)| n.key.clone())
-                    .collect();
-                if spans.is_empty() {
-                    spans.push(node.key.clone());
-                }
-                let owned = |names: &[&str]| names.iter().map(|&n| n.to_owned()).collect();
-                let fault = Fault::Drives { given: owned(&given), allowed: owned(&drives) };
-                self.violations.push(Violation { fault: Arc::new(fault), path: path.to_owned(), spans });
-            }
-        }
         Value::Object(object)
     }
 
@@ -297,13 +287,11 @@ impl<'k> Walk<'k> {
             if path.is_empty() && matches!(node.data, Data::Table(_) | Data::Array(_)) { "table" } else { "key" };
         let allowed: Vec<String> = schema::properties(schema).map(|(k, _)| k.clone()).collect();
         let child_path = join(path, name);
-        let users: Vec<String> = self
-            .kinds
-            .beside(self.kind)
-            .iter()
-            .filter(|s| schema::has(&s.schema, &child_path))
-            .map(|s| s.name.to_owned())
-            .collect();
+        // A key of the table of a model may be one of another model's table.
+        let own = self.kind.and_then(|kind| child_path.strip_prefix(kind.name)?.strip_prefix('.'));
+        let place = |kind: &Kind| own.map_or_else(|| child_path.clone(), |key| join(kind.name, key));
+        let users = self.kinds.iter().filter(|kind| schema::has(&kind.schema, &place(kind)));
+        let users: Vec<String> = users.map(|kind| kind.name.to_owned()).collect();
         let fault = match self.kind {
             Some(kind) if !users.is_empty() && !users.iter().any(|u| u == kind.name) => {
                 Fault::NotUsed { what, name: name.into(), model: kind.name.into(), users, allowed }
@@ -323,25 +311,7 @@ impl<'k> Walk<'k> {
     }
 
     fn missing(&mut self, name: &str, schema: &Value, path: &str, at: &Span) {
-        let is_table =
-            path.is_empty() && (schema.get("properties").is_some() || schema::alternatives(schema).is_some());
-        let allowed = if is_table {
-            let keys: Vec<&str> = schema::properties(schema).map(|(k, _)| k.as_str()).collect();
-            format!("a table with {}", keys.join(", "))
-        } else {
-            expected(schema)
-        };
-        let fault = Fault::Missing {
-            what: if is_table { "table" } else { "key" },
-            name: match (is_table, path) {
-                (true, _) => format!("[{name}]"),
-                (false, "") => name.into(),
-                (false, table) => format!("{name} in {}", header(table)),
-            },
-            description: schema::text(schema, "description").into(),
-            allowed,
-        };
-        self.report(fault, &join(path, name), at);
+        self.report(missing(name, schema, path), &join(path, name), at);
     }
 
     fn array(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
@@ -355,6 +325,10 @@ impl<'k> Walk<'k> {
         let x = match &node.data {
             Data::Integer(i) => *i as f64,
             Data::Float(x) => *x,
+            Data::Text(text) if path != "grains.diameter" && self.of_unknown_grains(text, schema) => {
+                self.complete = false;
+                return Value::Null;
+            }
             Data::Text(text) if !unit.is_empty() => match self.quantity(text, schema) {
                 Ok(x) => x,
                 Err(error) => {

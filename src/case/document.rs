@@ -101,13 +101,18 @@ impl Document {
         insert(&mut self.root, &segments, node, &key).map_err(|()| bad(Fault::BadSet { argument: argument.into() }))
     }
 
-    /// The node at a path such as `flow.height` or `check.0.quantity`.
+    /// The node at a path such as `flow.depth` or `check.0.quantity`.
     pub(super) fn node(&self, path: &str) -> Option<&Node> {
         path.split('.').filter(|s| !s.is_empty()).try_fold(&self.root, |node, segment| match &node.data {
             Data::Table(entries) => entries.iter().find(|(k, _)| k == segment).map(|(_, n)| n),
             Data::Array(items) => items.get(segment.parse::<usize>().ok()?),
             _ => None,
         })
+    }
+
+    /// The key at `path`, if the document has it.
+    pub(super) fn key(&self, path: &str) -> Option<Span> {
+        self.node(path).map(|node| node.key.clone())
     }
 
     /// Where to point for `path`: its value, or the nearest table above it that the document has.
@@ -191,6 +196,14 @@ fn override_data(value: &str) -> Data {
 /// Puts `node` at `path`, making the tables on the way, or removes what stands there.
 fn insert(at: &mut Node, path: &[&str], node: Option<Node>, key: &Span) -> Result<(), ()> {
     let Some((first, rest)) = path.split_first() else { return Err(()) };
+    // A law that is written as a word is the table with that law.
+    if let Data::Text(word) = &at.data
+        && word.chars().all(|c| c.is_ascii_lowercase() || c == '-' || c.is_ascii_digit())
+        && !word.is_empty()
+    {
+        let word = Node { data: at.data.clone(), key: at.key.clone(), value: at.value.clone() };
+        at.data = Data::Table(vec![("law".into(), word)]);
+    }
     match &mut at.data {
         Data::Table(entries) => {
             let place = entries.iter().position(|(k, _)| k == first);

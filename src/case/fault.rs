@@ -90,6 +90,21 @@ pub enum Fault {
         /// names that are used there
         allowed: Vec<String>,
     },
+    /// A top of the flow that the model does not solve.
+    #[error("{model} does not solve a flow whose top is {top}")]
+    Top {
+        /// the top, given or the default
+        top: String,
+        /// the model
+        model: String,
+        /// models that solve it
+        users: Vec<String>,
+        /// tops that this one solves
+        allowed: Vec<String>,
+    },
+    /// A value that the model cannot do without: what it is stands in the schema.
+    #[error("this model needs a value that is missing")]
+    Needed,
     /// A missing table or key.
     #[error("missing {what} {name}")]
     Missing {
@@ -102,13 +117,31 @@ pub enum Fault {
         /// what it may be
         allowed: String,
     },
-    /// A case of format 2 with several models or none, or a model that does not exist.
-    #[error("{}", which_model(given, allowed))]
+    /// A case of format 1.
+    #[error("this case is of format 1, which had a file for each model")]
+    OldFormat {
+        /// the kind of flow and the model that it has now, where they are known
+        scene: Option<(&'static str, &'static str)>,
+    },
+    /// A key of format 1 that has another place.
+    #[error("{old} is {new} now{}", if *with_bed { ", of the clear fluid: the height without the bed" } else { "" })]
+    Renamed {
+        /// place in format 1
+        old: String,
+        /// place in format 2
+        new: String,
+        /// whether the old one counted the bed and the new one does not
+        with_bed: bool,
+    },
+    /// A case with several models or none, or a model that does not exist.
+    #[error("{}", which_model(given, allowed, *alone))]
     WhichModel {
         /// the model that was asked for; empty where none was
         given: String,
         /// models that there are
         allowed: Vec<String>,
+        /// whether the case has no table of a model
+        alone: bool,
     },
     /// A model that solves another kind of flow.
     #[error("{model} does not solve a scene of the kind \"{scene}\"")]
@@ -173,8 +206,8 @@ pub enum Fault {
         /// the choices
         allowed: Vec<String>,
     },
-    /// Not exactly one drive.
-    #[error("{}", if given.is_empty() { "the flow has no drive".to_owned() } else { format!("the flow has {} drives: {}", given.len(), given.join(", ")) })]
+    /// Too few drives, or too many.
+    #[error("{}", drives(given))]
     Drives {
         /// drives that were given
         given: Vec<String>,
@@ -239,7 +272,8 @@ codes!(Fault {
     Self::Syntax { .. } => "syntax",
     Self::Unknown { what: "table", .. } => "unknown-table",
     Self::Unknown { .. } => "unknown-key",
-    Self::NotUsed { .. } => "not-used",
+    Self::NotUsed { .. } | Self::Top { .. } => "not-used",
+    Self::Needed => "missing-key",
     Self::Missing { what: "table", .. } => "missing-table",
     Self::Missing { .. } => "missing-key",
     Self::WrongType { .. } => "wrong-type",
@@ -249,6 +283,8 @@ codes!(Fault {
     Self::Unit { .. } => "bad-quantity",
     Self::OutOfRange { .. } => "out-of-range",
     Self::UnknownWord { .. } => "unknown-word",
+    Self::OldFormat { .. } => "old-format",
+    Self::Renamed { .. } => "renamed",
     Self::WhichModel { .. } => "which-model",
     Self::OtherScene { .. } => "other-scene",
     Self::Drives { .. } => "drives",
@@ -260,11 +296,23 @@ codes!(Fault {
     Self::CheckLevel { .. } => "check-level",
 });
 
-fn which_model(given: &str, allowed: &[String]) -> String {
+fn drives(given: &[String]) -> String {
+    match given {
+        [] => "the flow has no drive".into(),
+        [one] => format!("{one} alone does not drive the flow"),
+        several => format!("the flow has {} drives: {}", several.len(), several.join(", ")),
+    }
+}
+
+fn which_model(given: &str, allowed: &[String], alone: bool) -> String {
     if !given.is_empty() {
-        return format!("there is no model \"{given}\"");
+        return match (allowed, alone) {
+            ([own], false) => format!("the name of the case has chosen {own}, and --model {given}"),
+            _ => format!("there is no model \"{given}\""),
+        };
     }
     match allowed.len() {
+        n if alone => format!("a scene alone does not say which of {n} models solves it"),
         0 => "no model solves this kind of flow".into(),
         n => format!("the case does not say which of {n} models solves it"),
     }

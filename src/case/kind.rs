@@ -1,6 +1,6 @@
 //! The kinds of case: for each model its tables, their schema, and how a checked document becomes them.
 //!
-//! The case knows no model. Whoever knows them hands in [`Kinds`]; a model declares its tables with [`tables!`](crate::tables).
+//! The case knows no model. Whoever knows them hands in [`Kinds`]; a model declares its table with [`part!`](crate::part).
 
 use std::fmt::Debug;
 
@@ -11,22 +11,28 @@ use serde::de::DeserializeOwned;
 use serde_json::{Map, Value, json};
 
 use super::checks::{Check, Limit};
+use super::fault::Fault;
 use super::tables::About;
-
-/// The tables of a case: what the model itself needs, and what every case has.
-pub trait Tables: Clone + Debug + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static {
-    /// What the case is about.
-    fn about(&self) -> &About;
-    /// Numbers that the case must give.
-    fn checks(&self) -> &[Check];
-    /// Where the method of the case ends.
-    fn limit(&self) -> Option<&Limit>;
-}
 
 /// The tables of a kind of flow, whatever the model: fluid, grains, bed, flow.
 pub trait FlowTables: Clone + Debug + Serialize + DeserializeOwned + JsonSchema + Send + Sync + 'static {
     /// The word after `scene =`.
     const KIND: &'static str;
+
+    /// What no schema can see: values that contradict each other, by path.
+    fn faults(&self) -> Vec<(&'static str, Fault)> {
+        Vec::new()
+    }
+
+    /// What is given of what not every model solves, by path.
+    fn given(&self) -> Vec<&'static str> {
+        Vec::new()
+    }
+
+    /// The word for what bounds the flow above, if that is a choice.
+    fn top(&self) -> Option<&'static str> {
+        None
+    }
 }
 
 /// The table of a model: what a case says besides the flow.
@@ -37,7 +43,7 @@ pub trait Part: Clone + Debug + Serialize + DeserializeOwned + JsonSchema + Send
     fn limit(&self) -> Option<&Limit>;
 }
 
-/// Declares the table of a model in a case of format 2: a struct with these keys, its checks and its limit.
+/// Declares the table of a model: a struct with these keys, its checks and its limit.
 ///
 /// The doc line of the struct is the description of the model.
 #[macro_export]
@@ -69,47 +75,6 @@ macro_rules! part {
     };
 }
 
-/// Declares the tables of a model: a struct with these tables and those of every case.
-///
-/// A law may be open, `pub struct Mine<F: Role = Usual>`. The doc line of the struct is the description of the model in `list models`, schema and reference.
-#[macro_export]
-macro_rules! tables {
-    ($(#[$doc:meta])* pub struct $name:ident $(<$law:ident: $role:ident = $usual:ty>)? { $($(#[$attribute:meta])* $table:ident: $type:ty,)* }) => {
-        #[derive(Clone, Debug, PartialEq, ::serde::Serialize, ::serde::Deserialize, ::schemars::JsonSchema)]
-        #[serde(bound = "")]
-        #[schemars(bound = "")]
-        $(#[$doc])*
-        pub struct $name $(<$law: $role = $usual>)? {
-            /// Version of the file format.
-            #[schemars(extend("minimum" = 1, "maximum" = 1))]
-            pub format: u32,
-            /// What the case is about.
-            pub case: $crate::case::tables::About,
-            $($(#[$attribute])* pub $table: $type,)*
-            /// Numbers that the case must give.
-            #[serde(default, skip_serializing_if = "Vec::is_empty")]
-            pub check: Vec<$crate::case::checks::Check>,
-            /// Where the method ends.
-            #[serde(default, skip_serializing_if = "Option::is_none")]
-            pub limit: Option<$crate::case::checks::Limit>,
-        }
-
-        impl $(<$law: $role>)? $crate::case::Tables for $name $(<$law>)? {
-            fn about(&self) -> &$crate::case::tables::About {
-                &self.case
-            }
-
-            fn checks(&self) -> &[$crate::case::checks::Check] {
-                &self.check
-            }
-
-            fn limit(&self) -> Option<&$crate::case::checks::Limit> {
-                self.limit.as_ref()
-            }
-        }
-    };
-}
-
 /// What a case says, whatever its model.
 #[derive(Clone, Debug)]
 pub(super) struct Content {
@@ -128,25 +93,19 @@ pub(super) struct Content {
 /// The cases of one model.
 #[derive(Clone, Debug)]
 pub struct Kind {
-    /// `kind` or `kind/solution`
+    /// name of the model and of its table
     pub name: &'static str,
-    /// the kind of flow in a case of format 2; `None` in format 1
-    pub(super) scene: Option<&'static str>,
+    /// the kind of flow
+    pub(super) scene: &'static str,
     /// its JSON Schema
     pub(super) schema: Value,
     read: fn(&'static str, Value) -> Result<Content, serde_json::Error>,
 }
 
 impl Kind {
-    /// The cases of format 1 with the tables `T`, of a model called `name`.
+    /// The cases with the flow `S` and a table `T` of a model called `name`.
     #[must_use]
-    pub fn of<T: Tables>(name: &'static str) -> Self {
-        Self { name, scene: None, schema: schema_of::<T>(), read: read::<T> }
-    }
-
-    /// The cases of format 2 with the flow `S` and a table `T` of a model called `name`.
-    #[must_use]
-    pub fn of_scene<S: FlowTables, T: Part>(name: &'static str) -> Self {
+    pub fn of<S: FlowTables, T: Part>(name: &'static str) -> Self {
         let (flow, mut own) = (schema_of::<S>(), schema_of::<T>());
         let of = |schema: &Value, keyword: &str| schema.get(keyword).cloned().unwrap_or_default();
         let mut properties = Map::new();
@@ -168,17 +127,12 @@ impl Kind {
             "title": name, "description": description, "type": "object", "properties": properties, "required": required,
         });
         close(&mut schema);
-        Self { name, scene: Some(S::KIND), schema, read: read_scene::<S, T> }
+        Self { name, scene: S::KIND, schema, read: read::<S, T> }
     }
 
     /// A checked document as what it says.
     pub(super) fn content(&self, document: Value) -> Result<Content, serde_json::Error> {
         (self.read)(self.name, document)
-    }
-
-    /// `kind` and, if there is one, `solution`.
-    pub(super) fn tags(&self) -> (&'static str, Option<&'static str>) {
-        self.name.split_once('/').map_or((self.name, None), |(kind, solution)| (kind, Some(solution)))
     }
 }
 
@@ -222,8 +176,8 @@ fn schema_of<T: JsonSchema>() -> Value {
     schema
 }
 
-/// A checked case of format 2 as tables, and back with every default filled in.
-fn read_scene<S: FlowTables, T: Part>(name: &'static str, mut document: Value) -> Result<Content, serde_json::Error> {
+/// A checked case as tables, and back with every default filled in.
+fn read<S: FlowTables, T: Part>(name: &'static str, mut document: Value) -> Result<Content, serde_json::Error> {
     let about: About = serde_json::from_value(document["case"].clone())?;
     let own = document.as_object_mut().and_then(|tables| tables.shift_remove(name)).unwrap_or_else(|| json!({}));
     let (flow, own): (S, T) = (serde_json::from_value(document)?, serde_json::from_value(own)?);
@@ -236,19 +190,6 @@ fn read_scene<S: FlowTables, T: Part>(name: &'static str, mut document: Value) -
     let tables = Value::Object(tables);
     let (checks, limit) = (own.checks().to_vec(), own.limit().cloned());
     Ok(Content { resolved: text(tables.clone()), about, checks, limit, tables })
-}
-
-/// A checked document as tables, and back with every default filled in.
-fn read<T: Tables>(_: &'static str, document: Value) -> Result<Content, serde_json::Error> {
-    let tables: T = serde_json::from_value(document)?;
-    let values = serde_json::to_value(&tables)?;
-    Ok(Content {
-        resolved: text(values.clone()),
-        about: tables.about().clone(),
-        checks: tables.checks().to_vec(),
-        limit: tables.limit().cloned(),
-        tables: values,
-    })
 }
 
 /// Tables as a case file. From values rather than from each type: the compiler then makes one TOML writer, not one a type.
@@ -270,7 +211,7 @@ fn drop_nulls(value: &mut Value) {
     }
 }
 
-/// The key that names the kind of flow, which only cases of format 2 have.
+/// The key that names the kind of flow.
 pub(super) const SCENE: &str = "scene";
 /// Tables that every model shares, and what stands beside them: what is none of these in `--set` is a key of the model.
 pub(super) const SHARED: [&str; 7] = ["format", SCENE, "case", "fluid", "grains", "bed", "flow"];
@@ -278,10 +219,11 @@ pub(super) const SHARED: [&str; 7] = ["format", SCENE, "case", "fluid", "grains"
 /// All kinds of case that a program knows, in the order of its models.
 #[derive(Clone, Debug, Default)]
 pub struct Kinds {
-    first: Vec<Kind>,
-    scenes: Vec<Kind>,
-    /// the model of a case of format 2 that has several
+    known: Vec<Kind>,
+    /// the model of a case that has several
     pub(super) chosen: Option<String>,
+    /// whether there may be tables of models that are not among these
+    pub(super) partial: bool,
 }
 
 impl Kinds {
@@ -295,34 +237,37 @@ impl Kinds {
 
     /// One more kind, in place of one of the same name.
     pub fn push(&mut self, kind: Kind) {
-        let kinds = if kind.scene.is_some() { &mut self.scenes } else { &mut self.first };
-        kinds.retain(|known| known.name != kind.name);
-        kinds.push(kind);
+        self.known.retain(|known| known.name != kind.name);
+        self.known.push(kind);
     }
 
-    /// The same, where a case of format 2 with several models is that of `model`.
+    /// The same, where a case with several models is that of `model`.
     #[must_use]
     pub fn choosing(mut self, model: &str) -> Self {
         self.chosen = Some(model.to_owned());
         self
     }
 
-    /// Those of format 1.
+    /// The same, where a case may have the tables of models that are not among them.
+    #[must_use]
+    pub fn partial(mut self) -> Self {
+        self.partial = true;
+        self
+    }
+
+    /// All of them.
     pub(super) fn iter(&self) -> impl Iterator<Item = &Kind> {
-        self.first.iter()
+        self.known.iter()
     }
 
-    pub(super) fn first(&self) -> Option<&Kind> {
-        self.first.first()
-    }
-
-    /// Those of format 2.
-    pub(super) fn scenes(&self) -> impl Iterator<Item = &Kind> {
-        self.scenes.iter()
-    }
-
-    /// Those of the format of `kind`.
-    pub(super) fn beside(&self, kind: Option<&Kind>) -> &[Kind] {
-        if kind.is_some_and(|kind| kind.scene.is_some()) { &self.scenes } else { &self.first }
+    /// The words after `scene =`, in the order of the models.
+    pub(super) fn scenes(&self) -> Vec<&'static str> {
+        let mut scenes: Vec<&str> = Vec::new();
+        for kind in &self.known {
+            if !scenes.contains(&kind.scene) {
+                scenes.push(kind.scene);
+            }
+        }
+        scenes
     }
 }

@@ -1,5 +1,6 @@
 //! From a file, a shipped case or a text to a checked case.
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, Read};
@@ -9,30 +10,39 @@ use super::diagnose::{Diagnosis, diagnose, nearest};
 use super::document::{Document, Text};
 use super::fault::Fault;
 use super::kind::{Content, Kind};
+use super::shipped::{self, Shipped};
 use super::violation::{Span, Violation};
-use super::{Case, CaseError, Kinds, angle, scene, shipped};
+use super::{Case, CaseError, Kinds, angle, scene};
 
 /// Largest accepted case file \[bytes].
 const LIMIT: u64 = 1 << 20;
 
 impl Case {
-    /// Loads `name`, a file or a shipped case, applies `--set` overrides and checks it as one of `kinds`.
+    /// Loads `name`, a file or a shipped case, `name:model` with a model of it, applies `--set` overrides and checks it as one of `kinds`.
     ///
     /// # Errors
     /// Every violation of the file, or why it cannot be read.
     pub fn load(kinds: &Kinds, name: &str, overrides: &[String]) -> Result<Self, CaseError> {
-        let path = Path::new(name);
-        if path.exists() || name.contains(['/', '\\']) {
-            let content = read(path).map_err(|fault| CaseError::without_text(name, fault))?;
+        let of_a_model = name.rsplit_once(':').filter(|(_, model)| kinds.iter().any(|kind| kind.name == *model));
+        let (file, model) = of_a_model.map_or((name, None), |(file, model)| (file, Some(model)));
+        let path = Path::new(file);
+        if path.exists() || file.contains(['/', '\\']) {
+            let content = read(path).map_err(|fault| CaseError::without_text(file, fault))?;
             let stem = path.file_stem().map_or_else(|| "case".into(), |s| s.to_string_lossy().into_owned());
-            return Self::parse(kinds, &stem, name, content, overrides);
+            let kinds = chosen(kinds, file, model)?;
+            return Self::parse(&kinds, &stem, file, content, overrides);
         }
-        let stem = name.strip_suffix(".toml").unwrap_or(name);
+        let stem = file.strip_suffix(".toml").unwrap_or(file);
         match shipped::find(stem) {
-            Some(content) => Self::parse(kinds, stem, name, content.to_owned(), overrides),
+            Some(Shipped { file: own, content, model: named }) => {
+                let kinds = chosen(kinds, file, model)?;
+                let kinds = chosen(&kinds, file, named)?;
+                Self::parse(&kinds, own, file, content.to_owned(), overrides)
+            }
             None => {
-                let fault = Fault::NoSuchCase { name: name.into(), nearest: nearest(stem, shipped::names()) };
-                Err(CaseError::without_text(name, fault))
+                let names = shipped::names().chain(shipped::files());
+                let fault = Fault::NoSuchCase { name: file.into(), nearest: nearest(stem, names) };
+                Err(CaseError::without_text(file, fault))
             }
         }
     }
@@ -63,7 +73,7 @@ impl Case {
         let sound = readable && more.is_empty();
         // Where the syntax is broken, what is missing or mistyped may only be unreadable.
         let unreadable = |v: &Violation| match v.fault.downcast_ref() {
-            Some(Fault::Missing { .. } | Fault::Empty) => true,
+            Some(Fault::Missing { .. } | Fault::WhichModel { .. } | Fault::Empty) => true,
             Some(Fault::Drives { given, .. }) => given.is_empty(),
             _ => document.line(&v.spans[0]).is_some_and(|line| broken.contains(&line)),
         };
@@ -91,6 +101,18 @@ impl Case {
             }
             _ => Err(CaseError { document, violations, draft: None }),
         }
+    }
+}
+
+/// The kinds with the model that the name of a case chooses, if it does; another one that was chosen before contradicts it.
+fn chosen<'k>(kinds: &'k Kinds, file: &str, model: Option<&str>) -> Result<Cow<'k, Kinds>, CaseError> {
+    match (model, kinds.chosen.as_deref()) {
+        (Some(model), None) => Ok(Cow::Owned(kinds.clone().choosing(model))),
+        (Some(model), Some(other)) if model != other => {
+            let fault = Fault::WhichModel { given: other.into(), allowed: vec![model.into()], alone: false };
+            Err(CaseError::without_text(file, fault))
+        }
+        _ => Ok(Cow::Borrowed(kinds)),
     }
 }
 

@@ -14,6 +14,7 @@ pub mod checks;
 mod diagnose;
 mod document;
 mod fault;
+pub(crate) mod format1;
 mod kind;
 mod load;
 mod reference;
@@ -28,7 +29,7 @@ mod wording;
 pub use diagnose::nearest;
 pub use document::{Document, Text};
 pub use fault::Fault;
-pub use kind::{FlowTables, Kind, Kinds, Part, Tables, text};
+pub use kind::{FlowTables, Kind, Kinds, Part, text};
 pub use reference::reference;
 pub use render::printable;
 pub use violation::{CaseFault, Span, Violation};
@@ -48,7 +49,7 @@ pub struct Case {
     pub source: String,
     /// `--set` arguments
     pub overrides: Vec<String>,
-    /// `kind` or `kind/solution`
+    /// name of the model
     pub model: &'static str,
     content: Content,
     /// slopes that are angles: `table.key`
@@ -65,6 +66,15 @@ pub struct CaseError {
     pub violations: Vec<Violation>,
     /// the case as far as it could be read, if every value that it needs could be
     draft: Option<Box<Case>>,
+}
+
+/// The models to choose from for a case.
+#[derive(Clone, Copy, Debug)]
+pub struct Choices<'a> {
+    /// those of which it has tables, or all that solve its kind of scene
+    pub models: &'a [String],
+    /// whether it is a scene alone
+    pub alone: bool,
 }
 
 fn count(n: usize) -> String {
@@ -85,10 +95,40 @@ impl Case {
         self.content.resolved.clone()
     }
 
+    /// The text of its file, as it was read.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.document.texts[0].content
+    }
+
+    /// Its `--set` arguments that change the flow, not the model.
+    #[must_use]
+    pub fn overrides_of_the_flow(&self) -> Vec<String> {
+        self.overrides.iter().filter(|argument| scene::of_the_flow(argument)).cloned().collect()
+    }
+
     /// Its tables in SI, every default filled in.
     #[must_use]
     pub fn tables(&self) -> &serde_json::Value {
         &self.content.tables
+    }
+
+    /// Its scene, the same for every model of the flow, and the table of its model, as the texts of case files.
+    #[must_use]
+    pub fn parts(&self) -> [String; 2] {
+        let of_the_scene = |key: &String| ![self.model, "format", "case"].contains(&key.as_str());
+        let tables = self.content.tables.as_object().into_iter().flatten();
+        let (scene, rest): (Vec<_>, Vec<_>) = tables.partition(|(key, _)| of_the_scene(key));
+        let text_of = |entries: Vec<(&String, &serde_json::Value)>| {
+            text(
+                entries
+                    .into_iter()
+                    .map(|(key, value)| (key.clone(), value.clone()))
+                    .collect::<serde_json::Map<_, _>>()
+                    .into(),
+            )
+        };
+        [text_of(scene), text_of(rest.into_iter().filter(|(key, _)| *key == self.model).collect())]
     }
 
     /// What the case is about.
@@ -128,16 +168,60 @@ impl Case {
                 _ => others.push(path),
             }
         }
-        (numbers, others)
+        // A key of the model is one of `--set`, without the name of the model.
+        let own = |path: String| match path.strip_prefix(self.model).and_then(|own| own.strip_prefix('.')) {
+            Some(own) => own.to_owned(),
+            None => path,
+        };
+        let numbers = numbers.into_iter().map(|(path, x)| (own(path), x)).collect();
+        (numbers, others.into_iter().map(own).collect())
+    }
+
+    /// What the file does not say, and the values that are taken: defaults, by key as in `--set`.
+    #[must_use]
+    pub fn defaults(&self) -> Vec<(String, String)> {
+        let mut found = Vec::new();
+        let mut open = vec![(String::new(), &self.content.tables)];
+        while let Some((path, value)) = open.pop() {
+            let join = |key: &String| if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
+            match value {
+                serde_json::Value::Object(table) => {
+                    open.extend(table.iter().rev().map(|(key, value)| (join(key), value)))
+                }
+                serde_json::Value::Null | serde_json::Value::Array(_) => {}
+                value if self.document.node(&path).is_none() && !self.is_a_word(&path) => {
+                    let own = path.strip_prefix(self.model).and_then(|own| own.strip_prefix('.')).unwrap_or(&path);
+                    found.push((own.to_owned(), value.to_string().trim_matches('"').to_owned()));
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+
+    /// Whether `path` is the law of a table that the file writes as a word.
+    fn is_a_word(&self, path: &str) -> bool {
+        path.strip_suffix(".law").is_some_and(|table| self.document.node(table).is_some())
     }
 
     /// The case as an error: faults that only a comparison of its values shows, by path.
     #[must_use]
-    pub fn refuse(self, faults: Vec<(String, Arc<dyn CaseFault>)>) -> CaseError {
+    pub fn refuse(self, kinds: &Kinds, faults: Vec<(String, Arc<dyn CaseFault>)>) -> CaseError {
         let violations = faults
             .into_iter()
             .map(|(path, fault)| {
-                let spans = vec![self.document.locate(&path)];
+                let missing = matches!(fault.downcast_ref(), Some(Fault::Needed));
+                let fault = if missing { Arc::new(kinds.missing(self.model, &path)) } else { fault };
+                // Drives that are too many are shown one by one.
+                let drives = match fault.downcast_ref() {
+                    Some(Fault::Drives { given, .. }) => given.as_slice(),
+                    _ => &[],
+                };
+                let mut spans: Vec<Span> =
+                    drives.iter().filter_map(|drive| self.document.key(&format!("{path}.{drive}"))).collect();
+                if spans.is_empty() {
+                    spans.push(self.document.locate(&path));
+                }
                 Violation { fault, path, spans }
             })
             .collect();
@@ -146,6 +230,20 @@ impl Case {
 }
 
 impl CaseError {
+    /// The models to choose from, where nothing is wrong but that the case does not say which one solves it.
+    #[must_use]
+    pub fn choices(&self) -> Option<Choices<'_>> {
+        match self.violations.as_slice() {
+            [one] => match one.fault.downcast_ref()? {
+                Fault::WhichModel { given, allowed, alone } if given.is_empty() => {
+                    Some(Choices { models: allowed, alone: *alone })
+                }
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// The text that a span of a violation points into.
     #[must_use]
     pub fn text(&self, span: &Span) -> &Text {
@@ -158,10 +256,24 @@ impl CaseError {
         self.draft.as_deref()
     }
 
-    /// Both errors of one case; where they point at the same value, the first one says enough.
+    /// Both errors of one case; where they point at the same value, or where a misspelt key is what is missing, the first one says enough.
     #[must_use]
     pub fn and(mut self, more: Self) -> Self {
-        let news = more.violations.into_iter().filter(|v| self.violations.iter().all(|known| known.path != v.path));
+        let meant = |known: &Violation, path: &str, fault: Option<&Fault>| {
+            let Some(Fault::Unknown { nearest: Some(name), .. }) = known.fault.downcast_ref() else { return false };
+            let table = known.path.rsplit_once('.').map_or("", |(table, _)| table);
+            match fault {
+                Some(Fault::Missing { .. }) => path == format!("{table}.{name}"),
+                Some(Fault::Drives { allowed, .. }) => {
+                    path == table && allowed.iter().any(|drives| drives.split(' ').any(|drive| drive == name))
+                }
+                _ => false,
+            }
+        };
+        let news = more.violations.into_iter().filter(|v| {
+            let known = |known: &Violation| known.path == v.path || meant(known, &v.path, v.fault.downcast_ref());
+            !self.violations.iter().any(known)
+        });
         let news: Vec<Violation> = news.collect();
         self.violations.extend(news);
         self

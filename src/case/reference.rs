@@ -4,99 +4,113 @@ use std::fmt::Write;
 
 use serde_json::Value;
 
-use super::kind::Kinds;
+use super::kind::{Kind, Kinds};
 use super::schema;
 
-/// All tables and keys of all models, as Markdown: what every model has comes once, first.
+/// All tables and keys, as Markdown: the flow of each kind once, then the models that solve it.
 #[must_use]
 pub fn reference(kinds: &Kinds) -> String {
     let mut text = String::from(
         "# Case reference\n\nWritten by `bedload schema --reference` from the types of the program; do not edit.\n\n\
-         A quantity is a number in SI or a text with a unit: `0.002` or `\"2 mm\"`. Keys with a default may be left out. \
-         A table or key that the model of the case does not have is an error.\n\n\
-         | `kind`/`solution` | what is solved | tables beside those of every model |\n|---|---|---|\n",
+         A case is a flow of one kind, `scene`, and the tables of the models that solve it. A quantity is a number in SI or a text with a unit: \
+         `0.002` or `\"2 mm\"`; a length may be one in diameters of the grains: `\"12.5 d\"`. Keys with a default may be left out. \
+         A table or key that neither the flow nor a model has is an error.\n\n\
+         | `scene` | model | what is solved |\n|---|---|---|\n",
     );
-    for kind in kinds.iter() {
-        let own: Vec<String> =
-            own(kinds, &kind.schema).map(|(name, table)| format!("`{}`", title(name, table))).collect();
-        let _ =
-            writeln!(text, "| `{}` | {} | {} |", kind.name, schema::text(&kind.schema, "description"), own.join(" "));
+    for scene in kinds.scenes() {
+        for kind in of(kinds, scene) {
+            let _ = writeln!(text, "| `{scene}` | [`{0}`](#model-{0}) | {1} |", kind.name, about(kind));
+        }
     }
-    text += "\n## In every model\n";
-    let shared = kinds.first().into_iter().flat_map(|kind| schema::properties(&kind.schema));
-    for (name, table) in shared.filter(|(name, table)| common(kinds, name, table)) {
-        part(&mut text, name, table);
-    }
-    for kind in kinds.iter() {
-        let _ = write!(text, "\n## Model `{}`\n\n{}\n", kind.name, schema::text(&kind.schema, "description"));
-        for (name, table) in own(kinds, &kind.schema) {
+    text += "\n## In every case\n";
+    for (name, table) in kinds.iter().take(1).flat_map(|kind| schema::properties(&kind.schema)) {
+        if ["format", "case"].contains(&name.as_str()) {
             part(&mut text, name, table);
+        }
+    }
+    for scene in kinds.scenes() {
+        let _ = write!(text, "\n## Scene `{scene}`\n");
+        let Some(first) = of(kinds, scene).next() else { continue };
+        for (name, table) in schema::properties(&first.schema) {
+            if !["format", "scene", "case", first.name].contains(&name.as_str()) {
+                part(&mut text, name, table);
+            }
+        }
+        for kind in of(kinds, scene) {
+            let _ = write!(
+                text,
+                "\n## Model `{}`\n\n{} It solves a scene of the kind `{scene}`.\n",
+                kind.name,
+                about(kind)
+            );
+            part(&mut text, kind.name, &kind.schema["properties"][kind.name]);
         }
     }
     text
 }
 
-/// Whether every model has the table `name`, and the same one.
-fn common(kinds: &Kinds, name: &str, table: &Value) -> bool {
-    kinds.iter().all(|kind| schema::properties(&kind.schema).any(|(n, t)| n == name && t == table))
+/// The models that solve a kind of flow.
+fn of<'k>(kinds: &'k Kinds, scene: &'k str) -> impl Iterator<Item = &'k Kind> {
+    kinds.iter().filter(move |kind| kind.scene == scene)
 }
 
-/// The tables of a model that not every model has.
-fn own<'k>(kinds: &'k Kinds, kind: &'k Value) -> impl Iterator<Item = (&'k String, &'k Value)> {
-    schema::properties(kind).filter(|(name, table)| !common(kinds, name, table))
-}
-
-/// The table as a case file writes it.
-fn title(name: &str, table: &Value) -> String {
-    match (table.get("items"), schema::properties(table).next()) {
-        (Some(_), _) => format!("[[{name}]]"),
-        (None, Some(_)) => format!("[{name}]"),
-        (None, None) => name.to_owned(),
-    }
+fn about(kind: &Kind) -> &str {
+    schema::text(&kind.schema, "description")
 }
 
 /// A table, an array of tables, or a key at the top of the file.
-fn part(text: &mut String, name: &str, table: &Value) {
+fn part(text: &mut String, path: &str, table: &Value) {
     let keys = table.get("items").unwrap_or(table);
-    if schema::properties(keys).next().is_some() {
-        section(text, &title(name, table), table, keys);
-    } else {
-        let _ = write!(text, "\n### `{name}`\n\n{} {}.\n", schema::text(table, "description"), what(table));
+    if schema::properties(keys).next().is_none() {
+        let _ = write!(text, "\n### `{path}`\n\n{} {}.\n", schema::text(table, "description"), what(table));
+        return;
     }
-}
-
-fn section(text: &mut String, title: &str, about: &Value, table: &Value) {
-    let _ = write!(text, "\n### `{title}`\n\n{}\n", schema::text(about, "description"));
-    let families: Vec<_> = schema::properties(table).filter(|(_, s)| schema::alternatives(s).is_some()).collect();
-    if families.is_empty() {
-        rows(text, table);
+    let title = if table.get("items").is_some() { format!("[[{path}]]") } else { format!("[{path}]") };
+    // The table of a model is described under its heading.
+    let description = if table.get("title").is_some() { "" } else { schema::text(table, "description") };
+    let _ = write!(text, "\n### `{title}`\n");
+    if !description.is_empty() {
+        let _ = write!(text, "\n{description}\n");
     }
-    for (family, schema) in families {
-        let _ = write!(text, "\n**`[closures.{family}]`** {}\n", schema::text(schema, "description"));
-        for (law, alternative) in schema::alternatives(schema).unwrap_or_default() {
-            let default = schema.pointer("/default/law").and_then(Value::as_str) == Some(law);
-            let default = if default { " (default)" } else { "" };
-            let _ = write!(text, "\n`law = \"{law}\"`{default}: {}\n", schema::text(alternative, "description"));
-            if schema::properties(alternative).count() > 1 {
-                rows(text, alternative);
-            }
+    let is_part = |schema: &Value| {
+        schema::properties(schema.get("items").unwrap_or(schema)).next().is_some()
+            || schema::alternatives(schema).is_some()
+    };
+    if schema::properties(keys).any(|(_, schema)| !is_part(schema)) {
+        rows(text, keys, is_part);
+    }
+    for (name, schema) in schema::properties(keys).filter(|(_, schema)| is_part(schema)) {
+        let path = format!("{path}.{name}");
+        match schema::alternatives(schema) {
+            Some(laws) => family(text, &path, schema, &laws),
+            None => part(text, &path, schema),
         }
     }
 }
 
-fn rows(text: &mut String, table: &Value) {
+/// The laws that a key may name.
+fn family(text: &mut String, path: &str, schema: &Value, laws: &[(&str, &Value)]) {
+    let _ = write!(text, "\n**`{path}`** {}\n", schema::text(schema, "description"));
+    let usual = schema.get("default").and_then(|usual| usual.get("law").unwrap_or(usual).as_str());
+    for (law, alternative) in laws {
+        let default = if usual == Some(law) { " (default)" } else { "" };
+        let _ = write!(text, "\n`law = \"{law}\"`{default}: {}\n", schema::text(alternative, "description"));
+        if schema::properties(alternative).count() > 1 {
+            rows(text, alternative, |_| false);
+        }
+    }
+}
+
+fn rows(text: &mut String, table: &Value, skipped: impl Fn(&Value) -> bool) {
     let required: Vec<&str> =
         table.get("required").and_then(Value::as_array).into_iter().flatten().filter_map(Value::as_str).collect();
-    let drives = schema::drives(table).unwrap_or_default();
     text.push_str("\n| key | needed | what | allowed |\n|---|---|---|---|\n");
-    for (key, schema) in schema::properties(table).filter(|(_, s)| s.get("const").is_none()) {
+    for (key, schema) in schema::properties(table).filter(|(_, s)| s.get("const").is_none() && !skipped(s)) {
         let angle = schema::properties(table).find(|(_, slope)| schema::text(slope, "x-angle") == key);
         let need = if let (Some((slope, _)), true) = (angle, required.contains(&key.as_str())) {
             format!("required unless `{slope}` is an angle")
         } else if required.contains(&key.as_str()) {
             "required".to_owned()
-        } else if drives.contains(&key.as_str()) {
-            "one of the drives".to_owned()
         } else {
             schema.get("default").map_or_else(|| "optional".into(), |d| format!("default {}", plain(d)))
         };

@@ -1,4 +1,4 @@
-//! Cases of format 2: a flow, and the tables of the models that solve it.
+//! A case is a flow, and the tables of the models that solve it.
 
 use serde_json::Value;
 
@@ -11,21 +11,15 @@ use super::wording::choices;
 use super::{angle, schema};
 use crate::units::{UnitError, parse_quantity};
 
-/// Whether the document is one of format 2.
-pub(super) fn is_scene(document: &Document) -> bool {
-    let second = matches!(document.node("format").map(|node| &node.data), Some(Data::Integer(2)));
-    second || document.node(SCENE).is_some()
-}
-
 /// The models of which the document has a table.
 fn present<'k>(document: &Document, kinds: &'k Kinds) -> Vec<&'k Kind> {
-    kinds.scenes().filter(|kind| document.node(kind.name).is_some()).collect()
+    kinds.iter().filter(|kind| document.node(kind.name).is_some()).collect()
 }
 
-/// The model of a case of format 2: the one that was chosen, or the only one that it has; else those that it has.
+/// The model of a case: the one that was chosen, or the only one that it has; else those that it has.
 pub(super) fn choice<'k>(document: &Document, kinds: &'k Kinds) -> Result<&'k Kind, Vec<&'k str>> {
     let present = present(document, kinds);
-    let chosen = kinds.chosen.as_deref().map(|name| kinds.scenes().find(|kind| kind.name == name));
+    let chosen = kinds.chosen.as_deref().map(|name| kinds.iter().find(|kind| kind.name == name));
     match (chosen, present.as_slice()) {
         (Some(Some(kind)), _) => Ok(kind),
         (None, [only]) => Ok(only),
@@ -35,31 +29,39 @@ pub(super) fn choice<'k>(document: &Document, kinds: &'k Kinds) -> Result<&'k Ki
 
 /// The name of that model, if it is known.
 pub(super) fn chosen(document: &Document, kinds: &Kinds) -> Option<&'static str> {
-    is_scene(document).then(|| choice(document, kinds).ok().map(|kind| kind.name)).flatten()
+    choice(document, kinds).ok().map(|kind| kind.name)
 }
 
-/// The name of a case: its stem, with the model where it has the tables of several.
+/// The name of a case: its stem, with the model where that is not the only one that it has.
 pub(super) fn named(stem: &str, document: &Document, kinds: &Kinds) -> String {
+    let only = |model: &str| matches!(present(document, kinds).as_slice(), [kind] if kind.name == model);
     match chosen(document, kinds) {
-        Some(model) if present(document, kinds).len() > 1 => format!("{stem}-{model}"),
+        Some(model) if !only(model) && !kinds.partial => format!("{stem}-{model}"),
         _ => stem.to_owned(),
     }
 }
 
-/// A `--set` argument of a case of format 2: what is no table of the flow is a key of the model.
+/// Whether a `--set` argument is of the flow.
+pub(super) fn of_the_flow(argument: &str) -> bool {
+    SHARED.contains(&argument.split(['.', '=']).next().unwrap_or_default().trim())
+}
+
+/// A `--set` argument: what is no table of the flow is a key of the model.
 pub(super) fn within(model: &str, argument: &str) -> String {
     let first = argument.split(['.', '=']).next().unwrap_or_default().trim();
-    if SHARED.contains(&first) || first == model {
+    if of_the_flow(argument) || first == model {
         return argument.to_owned();
     }
-    format!("{model}.{}", argument.trim_start().strip_prefix("model.").unwrap_or(argument.trim_start()))
+    format!("{model}.{}", argument.trim_start())
 }
 
 /// The document without the tables of other models.
 pub(super) fn view(document: &Document, kinds: &Kinds, kind: &Kind) -> Node {
     let mut root = document.root.clone();
     if let Data::Table(entries) = &mut root.data {
-        entries.retain(|(name, _)| name == kind.name || kinds.scenes().all(|other| other.name != name));
+        let of_another =
+            |name: &str| kinds.iter().any(|other| other.name == name) || kinds.partial && !SHARED.contains(&name);
+        entries.retain(|(name, _)| name == kind.name || !of_another(name));
     }
     root
 }
@@ -76,17 +78,14 @@ pub(super) fn diameter(document: &Document) -> Option<f64> {
 
 /// A length in diameters of the grains, `12.5 d`, in metres.
 pub(super) fn diameters(text: &str, d: f64) -> Option<f64> {
-    let number = text.trim().strip_suffix('d')?;
-    let number: f64 = number.strip_suffix(char::is_whitespace)?.trim_end().parse().ok()?;
+    let number: f64 = text.trim().strip_suffix('d')?.trim_end().parse().ok()?;
     Some(number * d)
 }
 
 impl<'k> Walk<'k> {
-    /// The model of a case of format 2, if it solves the kind of flow that the case has; says what is wrong if there is none.
+    /// The model of a case, if it solves the kind of flow that the case has; says what is wrong if there is none.
     pub(super) fn choose_model(&mut self, document: &Document) -> Option<&'k Kind> {
-        let mut scenes: Vec<&str> = self.kinds.scenes().filter_map(|kind| kind.scene).collect();
-        scenes.sort_unstable();
-        scenes.dedup();
+        let scenes = self.kinds.scenes();
         let owned = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
         let span = document.locate(SCENE);
         let word = match document.node(SCENE).map(|node| &node.data) {
@@ -115,50 +114,67 @@ impl<'k> Walk<'k> {
                 return None;
             }
         };
-        let solvers: Vec<&str> =
-            self.kinds.scenes().filter(|kind| kind.scene == Some(&word)).map(|kind| kind.name).collect();
+        let solvers: Vec<&str> = self.kinds.iter().filter(|kind| kind.scene == word).map(|kind| kind.name).collect();
+        // A table of a model that solves another kind of flow is wrong whichever model is chosen.
+        let strangers: Vec<&Kind> =
+            present(document, self.kinds).into_iter().filter(|kind| kind.scene != word).collect();
+        for kind in strangers.iter().filter(|kind| self.kinds.chosen.as_deref() != Some(kind.name)) {
+            let fault = Fault::OtherScene { model: kind.name.into(), scene: word.clone(), allowed: owned(&solvers) };
+            self.report(fault, kind.name, &document.locate(kind.name));
+        }
         match choice(document, self.kinds) {
-            Ok(kind) if kind.scene == Some(&word) => Some(kind),
+            Ok(kind) if kind.scene == word => Some(kind),
+            Ok(kind) if strangers.iter().any(|other| other.name == kind.name) && self.kinds.chosen.is_none() => None,
             Ok(kind) => {
                 let fault = Fault::OtherScene { model: kind.name.into(), scene: word, allowed: owned(&solvers) };
                 self.report(fault, kind.name, &document.locate(kind.name));
                 None
             }
+            Err(_) if !strangers.is_empty() && self.kinds.chosen.is_none() => None,
             Err(present) => {
                 let given = self.kinds.chosen.clone().into_iter().collect::<Vec<_>>();
-                let allowed = if present.is_empty() { owned(&solvers) } else { owned(&present) };
-                self.report(Fault::WhichModel { given: given.join(", "), allowed }, "", &document.root.value);
+                let alone = present.is_empty() || !given.is_empty();
+                let allowed = if alone { owned(&solvers) } else { owned(&present) };
+                self.report(Fault::WhichModel { given: given.join(", "), allowed, alone }, "", &document.root.value);
                 None
             }
         }
     }
 
-    /// What a text says of a number; in format 2 a length may be one in diameters of the grains.
+    /// What a text says of a number; a length may be one in diameters of the grains.
     pub(super) fn quantity(&self, text: &str, schema: &Value) -> Result<f64, UnitError> {
-        let length = schema::text(schema, "x-unit") == "m" && self.kind.is_some_and(|kind| kind.scene.is_some());
+        let length = schema::text(schema, "x-unit") == "m";
         let scaled = self.diameter.filter(|_| length).and_then(|d| diameters(text, d));
-        scaled.map_or_else(|| angle::quantity(text, schema), Ok)
+        let read = || angle::quantity(text, schema);
+        scaled.map_or_else(read, Ok).map_err(|error| match error {
+            // `d` is a unit of lengths.
+            UnitError::UnknownUnit { ref symbol, .. } if symbol == "d" && !length => {
+                match angle::quantity(&text.replace('d', "m"), schema) {
+                    Err(UnitError::WrongDimension { found, expected, .. }) => {
+                        UnitError::WrongDimension { unit: "d".into(), found, expected }
+                    }
+                    _ => error,
+                }
+            }
+            UnitError::UnknownUnit { symbol, .. } if symbol == "D" && length => {
+                UnitError::UnknownUnit { symbol, nearest: Some("d".into()) }
+            }
+            other => other,
+        })
+    }
+
+    /// Whether a text is a length in diameters of grains whose diameter is missing or wrong, which is reported there.
+    pub(super) fn of_unknown_grains(&self, text: &str, schema: &Value) -> bool {
+        let grains = self.kind.is_some_and(|kind| schema::has(&kind.schema, "grains.diameter"));
+        let length = schema::text(schema, "x-unit") == "m";
+        grains && length && self.diameter.is_none_or(|d| d <= 0.0) && diameters(text, 1.0).is_some()
     }
 }
 
 impl Case {
-    /// Whether it is of format 2: a flow, and the table of its model.
-    #[must_use]
-    pub fn is_scene(&self) -> bool {
-        self.content.tables.get(SCENE).is_some()
-    }
-
-    /// Where the value that a model knows as `path` stands in this case: in format 2 what is no table of the flow is in the table of the
-    /// model, and level and height of format 1 have other names.
+    /// Where the value that a model knows as `path` stands in the case: what is no table of the flow is in the table of the model.
     #[must_use]
     pub fn place(&self, path: &str) -> String {
-        if !self.is_scene() {
-            return path.to_owned();
-        }
-        match path {
-            "bed.level" => "bed.thickness".into(),
-            "flow.height" => "flow.depth".into(),
-            _ => within(self.model, path),
-        }
+        within(self.model, path)
     }
 }

@@ -4,29 +4,57 @@ use serde_json::{Map, Value, json};
 
 use super::kind::Kinds;
 
-/// Name and one-line description of each model.
-pub fn models(kinds: &Kinds) -> impl Iterator<Item = (&'static str, &str)> {
-    kinds.iter().map(|kind| (kind.name, text(&kind.schema, "description")))
+/// Name of each model, the kind of flow that it solves, and its one-line description.
+pub fn models(kinds: &Kinds) -> impl Iterator<Item = (&'static str, &'static str, &str)> {
+    kinds.iter().map(|kind| (kind.name, kind.scene, text(&kind.schema, "description")))
 }
 
-/// The published schema: `oneOf` the kinds of case, quantities as numbers or texts.
+/// The published schema: `oneOf` the kinds of flow, each with the tables of all models that solve it; quantities as numbers or texts.
 #[must_use]
 pub fn published(kinds: &Kinds) -> Value {
-    let kinds: Vec<Value> = kinds
-        .iter()
-        .map(|kind| {
-            let mut schema = kind.schema.clone();
-            quantities(&mut schema);
-            angles(&mut schema);
-            schema
-        })
-        .collect();
+    let scene = |word: &str| {
+        let mut of = kinds.iter().filter(|kind| kind.scene == word);
+        let mut schema = of.next().map(|kind| kind.schema.clone()).unwrap_or_default();
+        for kind in of {
+            schema["properties"][kind.name] = kind.schema["properties"][kind.name].clone();
+        }
+        // Which of the models a case has is its choice.
+        if let Some(Value::Array(required)) = schema.get_mut("required") {
+            required.retain(|key| !kinds.iter().any(|kind| key == kind.name));
+        }
+        schema["title"] = format!("scene {word}").into();
+        schema["description"] = format!("A case whose scene is of the kind {word}.").into();
+        quantities(&mut schema);
+        angles(&mut schema);
+        laws(&mut schema);
+        schema
+    };
     json!({
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "bedload case",
-        "description": "A case file of bedload, format 1. A quantity is a number in SI or a text with a unit; x-unit is its SI unit.",
-        "oneOf": kinds,
+        "description": "A case file of bedload, format 2: a flow, and the tables of the models that solve it. A quantity is a number in SI or a text with a unit; x-unit is its SI unit.",
+        "oneOf": kinds.scenes().into_iter().map(scene).collect::<Vec<_>>(),
     })
+}
+
+/// A law that needs nothing else may be written as a word.
+fn laws(schema: &mut Value) {
+    if let Some(choices) = alternatives(schema) {
+        let bare = choices.iter().filter(|(_, law)| {
+            law.get("required").and_then(Value::as_array).is_none_or(|keys| keys.iter().all(|key| key == "law"))
+        });
+        let words: Vec<Value> = bare.map(|(law, _)| json!(law)).collect();
+        if !words.is_empty()
+            && let Some(Value::Array(choices)) = schema.get_mut("oneOf")
+        {
+            choices.push(json!({ "type": "string", "enum": words }));
+        }
+    }
+    match schema {
+        Value::Object(object) => object.values_mut().for_each(laws),
+        Value::Array(items) => items.iter_mut().for_each(laws),
+        _ => {}
+    }
 }
 
 fn quantities(schema: &mut Value) {
@@ -52,13 +80,8 @@ fn angles(schema: &mut Value) {
             continue;
         };
         let Some(table) = table.as_object_mut() else { continue };
-        let mut number = json!({});
-        if let Some(Value::Array(required)) = table.get_mut("required")
-            && required.contains(&json!(key))
-        {
-            required.retain(|other| *other != json!(key));
-            number = json!({ "required": [key] });
-        }
+        // A slope of 0 needs none either, which an editor may say.
+        let number = json!({ "if": { "required": [name] }, "then": { "required": [key] } });
         let angle = json!({ "type": "string", "pattern": "(deg|rad|\u{b0})\\s*$" });
         table.insert("if".into(), json!({ "required": [name], "properties": { name: angle } }));
         table.insert("then".into(), json!({ "properties": { key: { "const": "angle" } } }));
@@ -86,12 +109,6 @@ pub(super) fn constants(schema: &Value) -> Option<Vec<(&str, &str)>> {
 pub(super) fn alternatives(schema: &Value) -> Option<Vec<(&str, &Value)>> {
     let choices = schema.get("oneOf")?.as_array()?;
     choices.iter().map(|c| Some((c.pointer("/properties/law/const")?.as_str()?, c))).collect()
-}
-
-/// The drives of a table of which exactly one is given.
-pub(super) fn drives(schema: &Value) -> Option<Vec<&str>> {
-    let choices = schema.get("oneOf")?.as_array()?;
-    choices.iter().map(|c| c.pointer("/required/0")?.as_str()).collect()
 }
 
 /// The range of a number in words: `more than 0 and at most 2 kg/m3`.

@@ -5,7 +5,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use schemars::{JsonSchema, Schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::fault::Fault;
@@ -26,42 +26,6 @@ pub struct Fluid {
     /// Dynamic viscosity of the fluid; a kinematic viscosity times the density.
     #[schemars(extend("x-unit" = "Pa s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
     pub viscosity: f64,
-}
-
-/// A fluid with a yield stress.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BinghamFluid {
-    /// Density of the material.
-    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0, "maximum" = 20000.0))]
-    pub density: f64,
-    /// Plastic viscosity of the material.
-    #[schemars(extend("x-unit" = "Pa s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
-    pub viscosity: f64,
-    /// Yield stress of the material; 0 is a Newtonian fluid.
-    #[schemars(extend("x-unit" = "Pa", "minimum" = 0.0, "maximum" = 1e9))]
-    pub yield_stress: f64,
-}
-
-/// The grains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Grains {
-    /// Diameter of the grains.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
-    pub diameter: f64,
-    /// Density of the grains.
-    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0, "maximum" = 30000.0))]
-    pub density: f64,
-}
-
-/// A bed of grains at the bottom of the flow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Bed {
-    /// Bed level h_p: height of the top of the grains over the lower wall; below the flow height.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub level: f64,
-    /// Solid fraction of the bed, the same at every depth; 0.7405 is the densest packing of equal spheres.
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
-    pub phi: f64,
 }
 
 /// What the number given as slope is.
@@ -151,9 +115,3 @@ macro_rules! only {
     };
 }
 pub(crate) use only;
-
-/// Exactly one of `drives` must be given: a JSON Schema `oneOf` of `required`.
-pub(crate) fn one_of(schema: &mut Schema, drives: &[&str]) {
-    let choices: Vec<_> = drives.iter().map(|drive| serde_json::json!({ "required": [drive] })).collect();
-    schema.insert("oneOf".into(), choices.into());
-}

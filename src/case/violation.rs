@@ -44,7 +44,7 @@ pub struct Span {
 pub struct Violation {
     /// what is wrong
     pub fault: Arc<dyn CaseFault>,
-    /// dotted path in the case: `flow.height`
+    /// dotted path in the case: `flow.depth`
     pub path: String,
     /// places to point at, the main one first
     pub spans: Vec<Span>,

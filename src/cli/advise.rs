@@ -6,13 +6,13 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{CaseArgs, CliError, Verb, answer, say};
+use super::{Answers, CaseArgs, CliError, Verb, say};
 use crate::advise;
 use crate::model::Registry;
 use crate::units::significant;
 
 /// The least model that serves a scene, and term by term what can go and what that costs.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Advise {
     #[command(flatten)]
     case: CaseArgs,
@@ -31,15 +31,15 @@ pub(super) struct Advise {
 }
 
 impl Verb for Advise {
-    fn model(&self) -> Option<&str> {
-        self.case.model.as_deref()
+    fn case(&mut self) -> Option<&mut CaseArgs> {
+        Some(&mut self.case)
     }
 
     fn json(&self) -> bool {
         self.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         if !(self.tolerance > 0.0 && self.tolerance.is_finite()) {
             let message = format!("--tolerance {} is not a share above 0", self.tolerance);
             return Err(CliError::Usage { message, hint: "0.05 is five per cent".into() });
@@ -52,11 +52,10 @@ impl Verb for Advise {
                 json!({ "what": t.what, "keep": t.keep, "error": t.error, "because": t.because, "source": t.source })
             });
             let least = &advice.least;
-            return Ok(answer(&json!({
+            return Ok(answers.give(&json!({
                 "status": "done",
                 "model": least.kind,
                 "because": least.because,
-                "template": least.template,
                 "numbers": numbers.collect::<Vec<_>>(),
                 "terms": terms.collect::<Vec<_>>(),
                 "written": written,

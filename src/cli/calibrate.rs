@@ -1,14 +1,16 @@
 //! `bedload calibrate`: numbers of a case fitted to a measured profile.
 
+use std::path::PathBuf;
+
 use clap::Args;
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError, Verb, word};
+use super::{Answers, CaseArgs, CliError, Verb, word};
 use crate::model::Registry;
 use crate::study::calibrate::{self, Request};
 
 /// Fit numbers of a case to a measured profile: values with standard errors, and which of them the data tell apart.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Calibrate {
     #[command(flatten)]
     case: CaseArgs,
@@ -29,15 +31,19 @@ pub(super) struct Calibrate {
 }
 
 impl Verb for Calibrate {
-    fn model(&self) -> Option<&str> {
-        self.case.model.as_deref()
+    fn case(&mut self) -> Option<&mut CaseArgs> {
+        Some(&mut self.case)
+    }
+
+    fn out(&mut self) -> Option<&mut PathBuf> {
+        self.study.out.as_mut()
     }
 
     fn json(&self) -> bool {
         self.study.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         let request = Request {
             case: self.case.case.clone(),
             overrides: self.case.overrides.clone(),
@@ -51,6 +57,6 @@ impl Verb for Calibrate {
         for (option, values) in [("fit", &request.fit), ("column", &request.columns), ("sigma", &request.sigma)] {
             options.extend(values.iter().map(|value| format!("--{option} {}", word(value))));
         }
-        self.study.conduct_on(registry, &self.case, &plan, next, &options)
+        self.study.conduct_on(registry, answers, &self.case, &plan, next, &options)
     }
 }

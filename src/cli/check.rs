@@ -3,11 +3,12 @@
 use clap::Args;
 use serde_json::json;
 
-use super::{CaseArgs, CliError, Verb, answer, say};
+use super::{Answers, CaseArgs, CliError, Verb, say};
+use crate::case::CaseError;
 use crate::model::Registry;
 
 /// Say whether a case is valid, without running it.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Check {
     #[command(flatten)]
     case: CaseArgs,
@@ -17,21 +18,64 @@ pub(super) struct Check {
 }
 
 impl Verb for Check {
-    fn model(&self) -> Option<&str> {
-        self.case.model.as_deref()
+    fn case(&mut self) -> Option<&mut CaseArgs> {
+        Some(&mut self.case)
     }
 
     fn json(&self) -> bool {
         self.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
-        let (case, problem) = self.case.load(registry)?;
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
+        let (case, problem) = match registry.load(&self.case.case, &self.case.overrides) {
+            Ok(checked) => checked,
+            Err(error) => return self.alone(registry, answers, error),
+        };
         if self.json {
-            return Ok(answer(&json!({ "status": "valid", "case": case.name, "model": problem.model_name() }))?);
+            return Ok(answers.give(&json!({ "status": "valid", "case": case.name, "model": problem.model_name() }))?);
         }
         let checks = case.checks().len();
         let rows = if checks == 1 { "1 check".to_owned() } else { format!("{checks} checks") };
-        Ok(say(&format!("{}: valid, {}, {} levels, {rows}\n", case.source, problem.model_name(), problem.cells()))?)
+        Ok(say(&format!("{}: valid, {}, {} levels, {rows}\n", case.name, problem.model_name(), problem.cells()))?)
     }
+}
+
+impl Check {
+    /// What a case says that does not choose its model: valid if a model takes it.
+    fn alone(&self, registry: &Registry, answers: &Answers, error: CaseError) -> Result<(), CliError> {
+        let Some(takers) =
+            takers(registry, &self.case, &error).filter(|t| t.iter().any(|(_, refused)| refused.is_none()))
+        else {
+            return Err(error.into());
+        };
+        // Of a file that has the tables of several models, each is to be right; a scene alone is not every model's.
+        let wrong = takers.iter().find(|(_, refused)| refused.is_some());
+        if let (Some((model, _)), Some(false)) = (wrong, error.choices().map(|choices| choices.alone)) {
+            registry.clone().choosing(model).load(&self.case.case, &self.case.overrides)?;
+        }
+        if self.json {
+            let models = takers.iter().map(|(model, refused)| json!({ "model": model, "refused": refused }));
+            let models: Vec<_> = models.collect();
+            return Ok(answers.give(&json!({ "status": "valid", "case": self.case.case, "models": models }))?);
+        }
+        let mut text = format!("{}: valid for\n", self.case.case);
+        for (model, refused) in &takers {
+            text += &match refused {
+                None => format!("  {model:<14} --model {model}\n"),
+                Some(why) => format!("  {model:<14} not: {why}\n"),
+            };
+        }
+        Ok(say(&text)?)
+    }
+}
+
+/// The models to choose from for a case, and why those do not take it that do not; `None` where something else is wrong.
+pub(super) fn takers(registry: &Registry, case: &CaseArgs, error: &CaseError) -> Option<Vec<(String, Option<String>)>> {
+    let choices = error.choices()?;
+    let taken = |model: &String| {
+        let loaded = registry.clone().choosing(model).load(&case.case, &case.overrides);
+        let why = loaded.err().and_then(|error| Some(error.reports().first()?.message.clone()));
+        (model.clone(), why)
+    };
+    Some(choices.models.iter().map(taken).collect())
 }

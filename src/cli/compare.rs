@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::progress::Progress;
-use super::{CliError, Verb, answer, say, word};
+use super::{Answers, CliError, Verb, say, word};
 use crate::case::Case;
 use crate::compare::{
     Align, CompareError, Comparison, NormRow, Request, Stated, Subject, compare, data, of_one_kind, percent,
@@ -21,7 +21,7 @@ use crate::runtime::cost::peak_memory_mb;
 use crate::units::significant;
 
 /// Set cases, runs and measured profiles side by side: norms, numbers, figure. The first one is the reference.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Compare {
     /// Cases, shipped or as files, which are run; or folders of runs, which are read
     #[arg(value_name = "CASE|RUN")]
@@ -87,7 +87,7 @@ impl Verb for Compare {
         self.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         let start = Instant::now();
         let given = self.subjects.len() * self.model.len().max(1) + self.data.len();
         if given < 2 {
@@ -129,7 +129,7 @@ impl Verb for Compare {
             if let Value::Object(object) = &mut value {
                 object.insert("out".into(), out.display().to_string().into());
             }
-            return Ok(answer(&value)?);
+            return Ok(answers.give(&value)?);
         }
         if self.quiet {
             return Ok(());

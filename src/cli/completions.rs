@@ -3,11 +3,11 @@
 use clap::{Args, CommandFactory};
 use clap_complete::Shell;
 
-use super::{Cli, CliError, Verb, say};
+use super::{Answers, Cli, CliError, Verb, say};
 use crate::model::Registry;
 
 /// Print a completion script for a shell.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Completions {
     /// The shell
     #[arg(value_enum)]
@@ -15,7 +15,7 @@ pub(super) struct Completions {
 }
 
 impl Verb for Completions {
-    fn execute(self, _: &Registry) -> Result<(), CliError> {
+    fn execute(self, _: &Registry, _: &Answers) -> Result<(), CliError> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut Cli::command(), "bedload", &mut script);
         Ok(say(&String::from_utf8_lossy(&script))?)

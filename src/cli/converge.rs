@@ -1,14 +1,16 @@
 //! `bedload converge`: the error over regularisation or mesh, and its order.
 
+use std::path::PathBuf;
+
 use clap::{Args, ValueEnum};
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError, Verb};
+use super::{Answers, CaseArgs, CliError, Verb};
 use crate::model::Registry;
 use crate::study::converge::{self, Request};
 
 /// How fast the error of a case falls: against exact or finest, with the observed order.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Converge {
     #[command(flatten)]
     case: CaseArgs,
@@ -44,15 +46,19 @@ enum Reference {
 }
 
 impl Verb for Converge {
-    fn model(&self) -> Option<&str> {
-        self.case.model.as_deref()
+    fn case(&mut self) -> Option<&mut CaseArgs> {
+        Some(&mut self.case)
+    }
+
+    fn out(&mut self) -> Option<&mut PathBuf> {
+        self.study.out.as_mut()
     }
 
     fn json(&self) -> bool {
         self.study.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         let over = match self.over {
             Over::Regularisation => converge::Over::Regularisation,
             Over::Mesh => converge::Over::Mesh,
@@ -77,6 +83,6 @@ impl Verb for Converge {
             half_decades: self.half_decades,
         };
         let (plan, assess) = converge::plan(registry, &request)?;
-        self.study.conduct(registry, &self.case, &plan, assess, &options)
+        self.study.conduct(registry, answers, &self.case, &plan, assess, &options)
     }
 }

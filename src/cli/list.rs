@@ -3,13 +3,13 @@
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::{CliError, Verb, answer, say};
+use super::{Answers, CliError, Verb, say};
 use crate::case::{Case, schema, shipped};
 use crate::closures::{Standing, catalogue};
 use crate::model::Registry;
 
 /// List models, shipped cases and closures.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct List {
     /// What to list; everything if left out
     #[arg(value_enum)]
@@ -31,13 +31,15 @@ impl Verb for List {
         self.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         let wanted = |what| self.what.is_none_or(|w| w == what);
         let mut sections: Vec<(&str, Vec<(String, String)>)> = Vec::new();
         if wanted(What::Models) {
             sections.push((
                 "models",
-                schema::models(registry.kinds()).map(|(n, about)| (n.into(), about.into())).collect(),
+                schema::models(registry.kinds())
+                    .map(|(name, scene, about)| (name.into(), format!("{about} Scene: {scene}.")))
+                    .collect(),
             ));
         }
         if wanted(What::Cases) {
@@ -59,7 +61,7 @@ impl Verb for List {
                     rows.iter().map(|(name, about)| json!({ "name": name, "about": about })).collect();
                 ((*title).to_owned(), Value::from(rows))
             };
-            return Ok(answer(&Value::Object(sections.iter().map(object).collect()))?);
+            return Ok(answers.give(&Value::Object(sections.iter().map(object).collect()))?);
         }
         let mut text = String::new();
         for (title, rows) in &sections {

@@ -6,12 +6,12 @@ use std::path::PathBuf;
 use clap::{Args, CommandFactory};
 use clap_mangen::Man as Writer;
 
-use super::{Cli, CliError, Verb, say};
+use super::{Answers, Cli, CliError, Verb, say};
 use crate::model::Registry;
 use crate::output::Manual;
 
 /// Print the manual, or write a page for each verb.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Man {
     /// Folder of manual pages: bedload.1 and a page for each verb, in place of earlier ones
     #[arg(long, value_name = "DIR")]
@@ -19,7 +19,7 @@ pub(super) struct Man {
 }
 
 impl Verb for Man {
-    fn execute(self, _: &Registry) -> Result<(), CliError> {
+    fn execute(self, _: &Registry, _: &Answers) -> Result<(), CliError> {
         let Some(folder) = self.out else {
             return Ok(say(&pages()?.into_iter().map(|(_, text)| text).collect::<String>())?);
         };

@@ -3,6 +3,7 @@
 #![allow(rustdoc::broken_intra_doc_links, rustdoc::invalid_html_tags)]
 
 mod advise;
+mod answers;
 mod calibrate;
 mod chart;
 mod check;
@@ -27,6 +28,7 @@ mod tests;
 mod validate;
 
 use std::io::{self, IsTerminal, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -40,6 +42,7 @@ use crate::output::OutputError;
 use crate::result::ErrorReport;
 use crate::study::StudyError;
 use crate::validate::ValidateError;
+use answers::Answers;
 use interrupt::STOPPED;
 
 /// Sediment transport from several models of the same flow, with what each one costs and how far it can be trusted.
@@ -59,19 +62,24 @@ trait Verb {
         false
     }
 
-    /// The model that it is to solve its case with, if that was said.
-    fn model(&self) -> Option<&str> {
+    /// Its case, if it does the same to one case by each of several models.
+    fn case(&mut self) -> Option<&mut CaseArgs> {
+        None
+    }
+
+    /// Where it writes, if that was said: a folder in it where there are several models.
+    fn out(&mut self) -> Option<&mut PathBuf> {
         None
     }
 
     /// Does it.
-    fn execute(self, registry: &Registry) -> Result<(), CliError>;
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError>;
 }
 
 /// The verbs: a line each, its file and its arguments.
 macro_rules! verbs {
     ($($(#[$doc:meta])* $name:ident($file:ident::$arguments:ident),)*) => {
-        #[derive(Debug, Subcommand)]
+        #[derive(Clone, Debug, Subcommand)]
         enum Verbs {
             $($(#[$doc])* $name($file::$arguments),)*
         }
@@ -81,14 +89,16 @@ macro_rules! verbs {
                 match self { $(Self::$name(verb) => verb.json(),)* }
             }
 
-            fn model(&self) -> Option<&str> {
-                match self { $(Self::$name(verb) => verb.model(),)* }
+            fn case(&mut self) -> Option<&mut CaseArgs> {
+                match self { $(Self::$name(verb) => verb.case(),)* }
             }
 
-            fn execute(self, registry: &Registry) -> Result<(), CliError> {
-                let chosen = self.model().map(|model| registry.clone().choosing(model));
-                let registry = chosen.as_ref().unwrap_or(registry);
-                match self { $(Self::$name(verb) => verb.execute(registry),)* }
+            fn out(&mut self) -> Option<&mut PathBuf> {
+                match self { $(Self::$name(verb) => verb.out(),)* }
+            }
+
+            fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
+                match self { $(Self::$name(verb) => verb.execute(registry, answers),)* }
             }
         }
     };
@@ -134,14 +144,14 @@ verbs! {
 }
 
 /// A case and what to change in it.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 struct CaseArgs {
     /// A file, or the name of a shipped case
     #[arg(value_name = "CASE")]
     case: String,
-    /// The model that solves it, where the case has the tables of several
+    /// A model that solves it, where the case is a scene or has the tables of several; repeat it for several models
     #[arg(long, value_name = "MODEL")]
-    model: Option<String>,
+    model: Vec<String>,
     /// Change a value: table.key=value; an empty value removes the key
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
@@ -255,26 +265,56 @@ pub fn execute(registry: &Registry) -> ExitCode {
         }
     };
     let json = cli.verb.json();
-    let result = cli.verb.execute(registry);
-    match result {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => error.report(json),
+    let mut verb = cli.verb;
+    let models = verb.case().map(|case| case.model.clone()).unwrap_or_default();
+    if models.len() < 2 {
+        let chosen = models.first().map(|model| registry.clone().choosing(model));
+        return match verb.execute(chosen.as_ref().unwrap_or(registry), &Answers::default()) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(error) => ExitCode::from(error.report(json.then_some(&Answers::default()))),
+        };
     }
+    // Each model by itself: one that fails does not keep the next from its answer.
+    let answers = Answers::several();
+    let mut code = 0;
+    for model in &models {
+        let mut one = verb.clone();
+        if let Some(case) = one.case() {
+            case.model = vec![model.clone()];
+        }
+        if let Some(out) = one.out() {
+            *out = out.join(model);
+        }
+        if let Err(error) = one.execute(&registry.clone().choosing(model), &answers) {
+            let stopped = matches!(error, CliError::Stopped(..));
+            code = code.max(error.report(json.then_some(&answers)));
+            if stopped {
+                break;
+            }
+        }
+    }
+    if json && answers.end().is_err() {
+        code = 1;
+    }
+    ExitCode::from(code)
 }
 
 impl CliError {
     /// Says what went wrong, as text or as JSON, and returns the exit code.
-    fn report(self, json: bool) -> ExitCode {
+    fn report(self, json: Option<&Answers>) -> u8 {
         let code = self.exit_code();
         if let Self::Quiet(code) = self {
-            return ExitCode::from(code);
+            return code;
         }
         // A reader that went away is no error of ours.
         if matches!(&self, Self::Io(error) if error.kind() == io::ErrorKind::BrokenPipe) {
-            return ExitCode::SUCCESS;
+            return 0;
         }
-        let written = if json { answer(&self.answer()) } else { self.explain() };
-        if written.is_err() { ExitCode::FAILURE } else { ExitCode::from(code) }
+        let written = match json {
+            Some(answers) => answers.give(&self.answer()),
+            None => self.explain(),
+        };
+        if written.is_err() { 1 } else { code }
     }
 
     fn exit_code(&self) -> u8 {
@@ -355,11 +395,4 @@ fn say(text: &str) -> io::Result<()> {
     let mut to = io::stdout().lock();
     to.write_all(printable(text).as_bytes())?;
     to.flush()
-}
-
-/// Writes one JSON object to standard output.
-fn answer(value: &Value) -> io::Result<()> {
-    // Control characters above 0x7e are legal in JSON as they are, and safer escaped.
-    let escaped = |c: char| if matches!(c, '\u{7f}'..='\u{9f}') { format!("\\u{:04x}", c as u32) } else { c.into() };
-    say(&format!("{value:#}\n").chars().map(escaped).collect::<String>())
 }

@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{CliError, Verb, say};
+use super::{Answers, CliError, Verb, say};
 use crate::case::{nearest, shipped};
 use crate::model::Registry;
 
 /// Write a case to start from.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct New {
     /// Shipped case to start from (`bedload list cases`)
     #[arg(value_name = "SHIPPED")]
@@ -25,14 +25,15 @@ pub(super) struct New {
 }
 
 impl Verb for New {
-    fn execute(self, _: &Registry) -> Result<(), CliError> {
-        let Some(content) = shipped::find(&self.from) else {
+    fn execute(self, _: &Registry, _: &Answers) -> Result<(), CliError> {
+        let Some(shipped) = shipped::find(&self.from) else {
             let hint = nearest(&self.from, shipped::names())
                 .map_or_else(|| "`bedload list cases` shows them".into(), |n| format!("did you mean \"{n}\"?"));
             let message = format!("there is no shipped case \"{}\"", self.from);
             return Err(CliError::Usage { message, hint });
         };
         // The first line points an editor at the schema beside the shipped cases.
+        let content = shipped.content;
         let content = content
             .split_once('\n')
             .map_or(content, |(first, rest)| if first.starts_with("#:schema") { rest } else { content });

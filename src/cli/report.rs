@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{CliError, Verb, answer, say};
+use super::{Answers, CliError, Verb, say};
 use crate::model::Registry;
 use crate::output::redraw;
 
 /// Redraw figures and page of a run from its tables.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Report {
     /// Folder of the run
     #[arg(value_name = "RUN")]
@@ -28,14 +28,14 @@ impl Verb for Report {
         self.json
     }
 
-    fn execute(self, _: &Registry) -> Result<(), CliError> {
+    fn execute(self, _: &Registry, answers: &Answers) -> Result<(), CliError> {
         let written = redraw(&self.run, self.png)?;
         let files: Vec<String> = std::iter::once(self.run.join("report.html"))
             .chain(written.figures)
             .map(|path| path.display().to_string())
             .collect();
         if self.json {
-            return Ok(answer(&json!({ "status": "done", "files": files }))?);
+            return Ok(answers.give(&json!({ "status": "done", "files": files }))?);
         }
         Ok(say(&(files.join("\n") + "\n"))?)
     }

@@ -10,7 +10,7 @@ use clap::Args;
 use serde_json::Value;
 
 use super::progress::Progress;
-use super::{CaseArgs, CliError, Verb, answer, say};
+use super::{Answers, CaseArgs, CliError, Verb, say};
 use crate::case::Case;
 use crate::model::{Problem, Registry};
 use crate::output::{
@@ -21,7 +21,7 @@ use crate::runtime::cost::peak_memory_mb;
 use crate::units::{readable, readable_error, significant};
 
 /// Solve a case and write its folder: numbers, tables, report.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Run {
     #[command(flatten)]
     case: CaseArgs,
@@ -52,15 +52,19 @@ pub(super) struct Run {
 }
 
 impl Verb for Run {
-    fn model(&self) -> Option<&str> {
-        self.case.model.as_deref()
+    fn case(&mut self) -> Option<&mut CaseArgs> {
+        Some(&mut self.case)
+    }
+
+    fn out(&mut self) -> Option<&mut PathBuf> {
+        self.out.as_mut()
     }
 
     fn json(&self) -> bool {
         self.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         let start = Instant::now();
         let (case, problem) = self.case.load(registry)?;
         // Listening begins before there is anything that Ctrl-C could leave half done.
@@ -79,7 +83,7 @@ impl Verb for Run {
         match (written.summary.status, &written.summary.error) {
             (Status::Failed, Some(error)) => Err(CliError::Failed(error.clone(), Some(value))),
             (Status::Stopped, _) => Err(CliError::Stopped(value, written.kept)),
-            _ if self.json => Ok(answer(&value)?),
+            _ if self.json => Ok(answers.give(&value)?),
             _ if self.quiet => Ok(()),
             _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.as_typed()))?),
         }

@@ -2,12 +2,12 @@
 
 use clap::Args;
 
-use super::{CliError, Verb, answer, say};
+use super::{Answers, CliError, Verb, say};
 use crate::case::{reference, schema};
 use crate::model::Registry;
 
 /// Print the JSON Schema of case files, for editors.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Schema {
     /// The case reference for people, as Markdown
     #[arg(long)]
@@ -15,11 +15,11 @@ pub(super) struct Schema {
 }
 
 impl Verb for Schema {
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         if self.reference {
             Ok(say(&reference(registry.kinds()))?)
         } else {
-            Ok(answer(&schema::published(registry.kinds()))?)
+            Ok(answers.give(&schema::published(registry.kinds()))?)
         }
     }
 }

@@ -1,14 +1,16 @@
 //! `bedload stability`: where a method holds and how it fails beyond.
 
+use std::path::PathBuf;
+
 use clap::Args;
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError, Verb, word};
+use super::{Answers, CaseArgs, CliError, Verb, word};
 use crate::model::Registry;
 use crate::study::stability::{self, Request};
 
 /// Where a case holds over one key or two: each point classified, each limit bisected.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Stability {
     #[command(flatten)]
     case: CaseArgs,
@@ -24,15 +26,19 @@ pub(super) struct Stability {
 }
 
 impl Verb for Stability {
-    fn model(&self) -> Option<&str> {
-        self.case.model.as_deref()
+    fn case(&mut self) -> Option<&mut CaseArgs> {
+        Some(&mut self.case)
+    }
+
+    fn out(&mut self) -> Option<&mut PathBuf> {
+        self.study.out.as_mut()
     }
 
     fn json(&self) -> bool {
         self.study.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         if let Some(tolerance) = self.tolerance.filter(|tolerance| !(*tolerance > 0.0 && tolerance.is_finite())) {
             let message = format!("--tolerance {tolerance} is not a share above 0");
             return Err(CliError::Usage { message, hint: "0.01 is one per cent".into() });
@@ -54,6 +60,6 @@ impl Verb for Stability {
             predicted: own.filter(|_| self.case.overrides.is_empty()).map(|limit| limit.expect),
         };
         let (plan, assess) = stability::plan(registry, &request)?;
-        self.study.conduct(registry, &self.case, &plan, assess, &options)
+        self.study.conduct(registry, answers, &self.case, &plan, assess, &options)
     }
 }

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::interrupt;
 use super::progress::Progress;
-use super::{CaseArgs, CliError, answer, say, word};
+use super::{Answers, CaseArgs, CliError, say, word};
 use crate::model::Registry;
 use crate::output::Mode;
 use crate::result::{ErrorReport, Snapshot, Status, Watch};
@@ -16,11 +16,11 @@ use crate::study::Assess;
 use crate::study::{Conducted, Next, Observer, Plan, Settings, conduct};
 
 /// How a study is conducted.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct StudyArgs {
     /// Folder to write [default: runs/<verb>-CASE]
     #[arg(long, value_name = "DIR")]
-    out: Option<PathBuf>,
+    pub(super) out: Option<PathBuf>,
     /// Threads to use [default: all processors]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -69,18 +69,20 @@ impl StudyArgs {
     pub fn conduct(
         &self,
         registry: &Registry,
+        answers: &Answers,
         case: &CaseArgs,
         plan: &Plan,
         assess: Assess,
         options: &[String],
     ) -> Result<(), CliError> {
-        self.conduct_on(registry, case, plan, Box::new(|_, _| (Vec::new(), assess)), options)
+        self.conduct_on(registry, answers, case, plan, Box::new(|_, _| (Vec::new(), assess)), options)
     }
 
     /// The same, with points that follow from the first ones.
     pub fn conduct_on(
         &self,
         registry: &Registry,
+        answers: &Answers,
         case: &CaseArgs,
         plan: &Plan,
         next: Next,
@@ -116,7 +118,7 @@ impl StudyArgs {
                 Err(CliError::Failed(error, Some(value)))
             }
             Status::Stopped => Err(CliError::Stopped(value, found.kept)),
-            _ if self.json => Ok(answer(&value)?),
+            _ if self.json => Ok(answers.give(&value)?),
             _ if self.quiet => Ok(()),
             _ => {
                 let out = self.out.as_ref().map(|out| format!(" --out {}", word(&out.display().to_string())));

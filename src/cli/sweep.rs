@@ -1,14 +1,16 @@
 //! `bedload sweep`: one case over a grid of values.
 
+use std::path::PathBuf;
+
 use clap::Args;
 
 use super::study::StudyArgs;
-use super::{CaseArgs, CliError, Verb, word};
+use super::{Answers, CaseArgs, CliError, Verb, word};
 use crate::model::Registry;
 use crate::study::sweep;
 
 /// Run a case over values of one key or a grid of several: a table of all results, and a figure.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Sweep {
     #[command(flatten)]
     case: CaseArgs,
@@ -20,17 +22,21 @@ pub(super) struct Sweep {
 }
 
 impl Verb for Sweep {
-    fn model(&self) -> Option<&str> {
-        self.case.model.as_deref()
+    fn case(&mut self) -> Option<&mut CaseArgs> {
+        Some(&mut self.case)
+    }
+
+    fn out(&mut self) -> Option<&mut PathBuf> {
+        self.study.out.as_mut()
     }
 
     fn json(&self) -> bool {
         self.study.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         let (plan, assess) = sweep::plan(&self.case.case, &self.case.overrides, &self.over)?;
         let options: Vec<String> = self.over.iter().map(|over| format!("--over {}", word(over))).collect();
-        self.study.conduct(registry, &self.case, &plan, assess, &options)
+        self.study.conduct(registry, answers, &self.case, &plan, assess, &options)
     }
 }

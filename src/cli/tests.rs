@@ -8,7 +8,7 @@ use crate::advise::AdviseError;
 use crate::case::Fault;
 use crate::compare::{CompareError, DataFault};
 use crate::dem::{GrainError, RunError};
-use crate::models::coupled::{CoupledError, CoupledFault};
+use crate::models::coupled::CoupledError;
 use crate::models::exact::{ExactError, ExactFault};
 use crate::models::grains::ImpactError;
 use crate::models::section::{SectionError, SectionFault};
@@ -28,7 +28,7 @@ macro_rules! all {
 
 /// The codes of every type that has any, by its name.
 const ALL: &[(&str, &[&str])] = &all![
-    AdviseError BedError BedFault CompareError CoupledError CoupledFault DataFault ExactError ExactFault Fault GrainError
+    AdviseError BedError BedFault CompareError CoupledError DataFault ExactError ExactFault Fault GrainError
     ImpactError NumericalError OutputError RegularisationSize RunError SectionError SectionFault SheetFlowError
     SheetFlowFault StudyError TwoFluidError TwoFluidFault Unfit
 ];

@@ -6,21 +6,24 @@ use clap::Args;
 use serde_json::{Value, json};
 
 use super::progress::Progress;
-use super::{CliError, Verb, answer, say};
+use super::{Answers, CliError, Verb, say};
 use crate::case::checks::Tier;
 use crate::model::Registry;
 use crate::output::TableFile;
 use crate::units::significant;
 use crate::validate::advice::{self, Assessed};
 use crate::validate::table::ADVICE_TESTS;
-use crate::validate::{FIGURE, HEAD, Row, Verdict, figure, markdown, validate};
+use crate::validate::{FIGURE, HEAD, Row, ValidateError, Verdict, figure, markdown, validate};
 
 /// Re-run what the cases claim and write the table.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub(super) struct Validate {
     /// Cases to validate; all shipped ones if left out
     #[arg(value_name = "CASE")]
     cases: Vec<String>,
+    /// A model of the cases; repeat it for several [default: all that a case has]
+    #[arg(long, value_name = "MODEL", requires = "cases")]
+    model: Vec<String>,
     /// The rows that take little time alone: the default
     #[arg(long, conflicts_with = "full")]
     quick: bool,
@@ -43,13 +46,17 @@ impl Verb for Validate {
         self.json
     }
 
-    fn execute(self, registry: &Registry) -> Result<(), CliError> {
+    fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         let tier = if self.full && !self.quick { Tier::Full } else { Tier::Quick };
         let default = (self.full && self.cases.is_empty())
             .then(|| PathBuf::from("docs/validation.md"))
             .filter(|_| Path::new("docs").is_dir());
         let table = self.out.or(default).map(|file| TableFile::prepare(&file, HEAD, FIGURE)).transpose()?;
-        let rows = validate(registry, &self.cases, tier, &mut Progress::new(self.json))?;
+        let mut cases = Vec::new();
+        for case in &self.cases {
+            cases.extend(registry.cases_of(case, &[], &self.model).map_err(ValidateError::from)?);
+        }
+        let rows = validate(registry, &cases, tier, &mut Progress::new(self.json))?;
         let assessed = if self.advice || self.full && self.cases.is_empty() {
             advice::assess(registry, ADVICE_TESTS)
         } else {
@@ -62,7 +69,7 @@ impl Verb for Validate {
         let verdicts = || rows.iter().map(|r| r.verdict).chain(assessed.iter().map(|j| j.verdict));
         let red = verdicts().filter(|v| *v == Verdict::Red).count();
         if self.json {
-            answer(
+            answers.give(
                 &json!({ "status": if red == 0 { "done" } else { "failed" }, "red": red, "rows": rows.iter().map(object).collect::<Vec<_>>(), "advice": assessed.iter().map(advice).collect::<Vec<_>>() }),
             )?;
             return if red == 0 { Ok(()) } else { Err(CliError::Quiet(3)) };

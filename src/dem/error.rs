@@ -138,15 +138,15 @@ impl MethodError for GrainError {
         match self {
             Self::Overlap { .. } => "stiffer contacts (closures.contact.k_n) or slower grains",
             Self::NotFinite { .. } => "a shorter time step, or values nearer to those of grains",
-            Self::Lost { .. } => "a bottom without gaps: bed.bottom = \"plane\" or more layers of fixed grains",
+            Self::Lost { .. } => "a bottom without gaps: bottom = \"plane\" or more layers of fixed grains",
             Self::StepTooLong { .. } | Self::DragStep { .. } => {
                 "a shorter discrete.time_step, or discrete.force_time_step = true"
             }
             Self::FluidStep { .. } => {
                 "discrete.fluid_scheme = \"implicit\", more discrete.fluid_steps or a shorter discrete.coupling_period"
             }
-            Self::PeriodTooShort { .. } => "a longer flow.length or flow.width",
-            Self::Count { .. } => "another number of bed.layers, flow.length or flow.width",
+            Self::PeriodTooShort { .. } => "a longer cell.length or cell.width",
+            Self::Count { .. } => "another number of layers, cell.length or cell.width",
         }
         .into()
     }
@@ -183,7 +183,7 @@ impl MethodError for RunError {
 
     fn hint(&self) -> String {
         match self {
-            Self::Restitution(_) => "a restitution coefficient (closures.contact.e_n) in (0, 1]",
+            Self::Restitution(_) => "a restitution coefficient (grains.restitution) in (0, 1]",
             Self::Checkpoint(_) => "--force starts again",
             Self::File(_) => "free some space, or give another folder with --out",
         }

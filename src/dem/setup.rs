@@ -64,6 +64,7 @@ pub enum Bottom {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Discrete {
     /// Simulated time after the bed has come to rest.
+    #[serde(default = "duration")]
     #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 1e5))]
     pub duration: f64,
     /// Share of that time, at its end, over which profiles are averaged.
@@ -103,6 +104,26 @@ pub struct Discrete {
     pub frames: u32,
 }
 
+impl Default for Discrete {
+    fn default() -> Self {
+        Self {
+            duration: duration(),
+            averaged: half(),
+            settle: settle(),
+            time_step: None,
+            safety: safety(),
+            force_time_step: false,
+            skin: skin(),
+            slice: slice(),
+            seed: 0,
+            frames: 0,
+        }
+    }
+}
+
+fn duration() -> f64 {
+    5.0
+}
 fn half() -> f64 {
     0.5
 }

@@ -12,16 +12,19 @@ mod problem;
 mod registry;
 mod simulation;
 mod study;
+mod takes;
 
 use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::case::{CaseFault, FlowTables, Part, Tables};
+use crate::case::{CaseFault, Fault, FlowTables, Part};
 use crate::closures::Info;
 use crate::result::{CheckpointError, Context, Failure, Figure, Outcome};
 use crate::scene::Scene;
 
-pub use offer::{BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, PACKED, Term, TermTest, TurbulentScene};
+pub use offer::{
+    BULK_FRICTION, COLLISIONS, Effort, Flow, LaminarScene, Offer, OwnCase, PACKED, Term, TermTest, TurbulentScene,
+};
 pub use problem::{Checked, Problem};
 pub use registry::{Entry, Registry, checked, read};
 pub use simulation::Simulation;
@@ -38,9 +41,23 @@ impl Faults {
         Self::default()
     }
 
-    /// A fault of the value at `path`, such as `bed.level`.
+    /// A fault of the value at `path`, such as `bed.thickness`.
     pub fn push(&mut self, (path, fault): (impl Into<String>, impl CaseFault)) {
         self.0.push((path.into(), Arc::new(fault)));
+    }
+
+    /// A value of the flow, or a table of it, that the model cannot do without: a fault where it is missing.
+    pub fn needed<T>(&mut self, path: &str, value: Option<T>) -> Option<T> {
+        if value.is_none() {
+            self.push((path, Fault::Needed));
+        }
+        value
+    }
+
+    /// Those of `more` at places where nothing is wrong yet.
+    pub(crate) fn also(&mut self, more: Self) {
+        let known: Vec<String> = self.0.iter().map(|(path, _)| path.clone()).collect();
+        self.0.extend(more.0.into_iter().filter(|(path, _)| !known.contains(path)));
     }
 
     /// Whether nothing is wrong.
@@ -54,19 +71,33 @@ impl Faults {
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct ModelInfo {
-    /// `kind` or `kind/solution`, as in `[model]` of a case of format 1
+    /// its name, which is that of its table in a case
     pub name: &'static str,
-    /// its table in a case of format 2
-    pub table: &'static str,
     /// whether its results are means of fluctuating quantities
     pub stochastic: bool,
+    /// what it solves of what not every model of its kind of scene does, as keys of the flow; `None`: all of it
+    pub takes: Option<&'static [&'static str]>,
+    /// tops of a flow that it solves; `None`: all of them
+    pub tops: Option<&'static [&'static str]>,
 }
 
 impl ModelInfo {
-    /// A model of this name whose results do not fluctuate.
+    /// A model of this name whose results do not fluctuate, and which solves whatever drives or bounds a flow.
     #[must_use]
     pub const fn new(name: &'static str) -> Self {
-        Self { name, table: name, stochastic: false }
+        Self { name, stochastic: false, takes: None, tops: None }
+    }
+
+    /// The same, which solves of what not every model does these keys of the flow alone.
+    #[must_use]
+    pub const fn taking(self, keys: &'static [&'static str]) -> Self {
+        Self { takes: Some(keys), ..self }
+    }
+
+    /// The same, which solves flows under these tops alone.
+    #[must_use]
+    pub const fn under(self, tops: &'static [&'static str]) -> Self {
+        Self { tops: Some(tops), ..self }
     }
 
     /// The same, whose results are means of fluctuating quantities.
@@ -84,16 +115,11 @@ pub trait Model: Solve + Sized {
     type Scene: FlowTables + Into<Scene>;
     /// Its table: how the flow is solved.
     type Table: Part;
-    /// The tables of its cases of format 1.
-    type Tables: Tables;
-
-    /// The flow and the table of the model that the tables of a case of format 1 hold.
-    fn split(tables: &Self::Tables) -> (Self::Scene, Self::Table);
 
     /// Checks what no schema can, values against each other, and makes the problem. `None` where a fault leaves none.
     fn build(scene: &Self::Scene, table: &Self::Table, faults: &mut Faults) -> Option<Self>;
 
-    /// The case with which this model would answer `flow` to the relative error `tolerance`, if it can.
+    /// What this model needs to answer `flow` to the relative error `tolerance`, if it can.
     fn offer(_flow: &Flow, _tolerance: f64) -> Option<Offer> {
         None
     }

@@ -1,5 +1,5 @@
 //! The flow behind a problem, in the terms that several models share: what advice is made from. A model says which flow its
-//! problem is one model of, what in it may be dropped, and with which case it would answer a given flow.
+//! problem is one model of, what in it may be dropped, and what it would need besides a given flow to answer it.
 
 /// A flow that more than one model answers.
 #[derive(Clone, Debug)]
@@ -42,6 +42,8 @@ pub struct LaminarScene {
     pub dilates: bool,
     /// viscosity of the bed over that of the fluid
     pub viscosity: f64,
+    /// its law, as a case has it
+    pub viscosity_law: String,
     /// whether the case has two velocities
     pub two_velocities: bool,
     /// Carman-Kozeny constant of the drag between the phases; `None` where one velocity serves
@@ -137,12 +139,6 @@ impl TurbulentScene {
         self.theta / (self.mu_s * PACKED * (1.0 - self.weight())).max(1e-12)
     }
 
-    /// Thickness of a bed that stays at rest below the moving layer \[m].
-    #[must_use]
-    pub fn bed_thickness(&self) -> f64 {
-        2.5 * self.layers().max(5.0) * self.d
-    }
-
     /// Whether the turbulence carries grains.
     #[must_use]
     pub fn suspends(&self) -> bool {
@@ -150,18 +146,6 @@ impl TurbulentScene {
         const VISCOUS: f64 = 5.0;
         let turbulent = self.settling.is_some() || self.u_star() * self.d / self.nu > VISCOUS;
         turbulent && self.fall() < self.u_star()
-    }
-
-    /// Fluid, grains and gravity in the keys of a case.
-    #[must_use]
-    pub fn matter(&self) -> Vec<String> {
-        vec![
-            format!("fluid.density={:?}", self.rho_f),
-            format!("fluid.viscosity={:?}", self.nu * self.rho_f),
-            format!("grains.diameter={:?}", self.d),
-            format!("grains.density={:?}", self.rho_p),
-            format!("flow.gravity={:?}", self.g),
-        ]
     }
 }
 
@@ -179,17 +163,25 @@ pub enum Effort {
     Minutes,
 }
 
-/// The case with which a model would answer a flow.
+/// What a model that would answer a flow needs besides it.
 #[derive(Clone, Debug)]
 pub struct Offer {
     /// what it costs
     pub effort: Effort,
     /// why this model serves
     pub because: String,
-    /// shipped case of the model, to start from
-    pub template: &'static str,
-    /// what is changed in it so that it is this flow; `None` where the case of the flow is that already
-    pub overrides: Option<Vec<String>>,
+    /// its case
+    pub case: OwnCase,
+}
+
+/// The case of a model that answers a flow.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub enum OwnCase {
+    /// the same scene, with these keys of the model set
+    Scene(Vec<String>),
+    /// a scene of another kind, as the text of a case
+    Other(String),
 }
 
 /// A term of a model, or a part of its numerics, that a flow may not need.

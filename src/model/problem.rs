@@ -24,7 +24,7 @@ pub struct Problem {
     pub name: String,
     /// the question
     pub title: String,
-    /// `kind` or `kind/solution` of the model
+    /// name of the model
     pub kind: &'static str,
     /// whether its results are means of fluctuating quantities
     pub stochastic: bool,
@@ -123,6 +123,7 @@ impl Problem {
             source: case.source.clone(),
             overrides: case.overrides.clone(),
             resolved: case.resolved(),
+            parts: case.parts(),
             threads,
             statement: self.statement(),
         }
@@ -159,9 +160,8 @@ impl Problem {
 /// Checks name catalogued results, or columns at a level; a limit is along a key of a table of the case.
 pub(super) fn checks(case: &Case, faults: &mut Faults) {
     if let Some(limit) = case.limit() {
-        let key =
-            limit.over.split_once('=').and_then(|(key, values)| Some((key.trim().split_once('.')?, values.trim())));
-        if key.is_none_or(|((table, name), values)| table.is_empty() || name.is_empty() || values.is_empty()) {
+        let key = limit.over.split_once('=').map(|(key, values)| (key.trim(), values.trim()));
+        if key.is_none_or(|(key, values)| key.is_empty() || values.is_empty()) {
             faults.push(("limit.over", Fault::LimitKey { over: limit.over.clone() }));
         }
         if limit.beyond == Class::Holds {
@@ -221,8 +221,8 @@ mod tests {
 
     #[test]
     fn a_mean_flow_against_a_steady_drive_is_a_failure_and_a_wave_is_none() {
-        let (_, problem) = builtin().load("sheet_1d_theta06", &[]).unwrap();
-        let steady = drive("sheet_1d_theta06").unwrap();
+        let (_, problem) = builtin().load("flow_theta06-sheet-flow", &[]).unwrap();
+        let steady = drive("flow_theta06-sheet-flow").unwrap();
         let mut outcome = Context::quiet(|context| problem.run(context)).unwrap();
         assert!(mean_velocity(&outcome).unwrap() > 0.5, "{:?}", mean_velocity(&outcome));
         assert_eq!(uphill(&steady, &outcome), None);
@@ -242,9 +242,11 @@ mod tests {
         assert!(error.to_string().contains("against the drive"), "{error}");
         // A discharge stands before a profile.
         outcome.results.set(&q::FLUID_DISCHARGE, -0.25 * outcome.results.get(q::FLOW_HEIGHT.name).unwrap());
-        for (case, at) in
-            [("kinetic_1d_start", Some("at t = ")), ("kinetic_1d_theta06", Some("-0.25")), ("kinetic_1d_waves", None)]
-        {
+        for (case, at) in [
+            ("kinetic_1d_start", Some("at t = ")),
+            ("flow_theta06-two-fluid", Some("-0.25")),
+            ("kinetic_1d_waves", None),
+        ] {
             let message = drive(case).and_then(|drive| uphill(&drive, &outcome)).map(|error| error.to_string());
             assert_eq!(message.is_some(), at.is_some(), "{case}: {message:?}");
             assert!(message.unwrap_or_default().contains(at.unwrap_or_default()), "{case}");

@@ -6,8 +6,9 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::problem::checks;
+use super::takes::takes;
 use super::{Checked, Faults, Flow, Model, ModelInfo, Offer, Problem, Solve};
-use crate::case::{Case, CaseError, CaseFault, FlowTables, Kind, Kinds};
+use crate::case::{Case, CaseError, CaseFault, Fault, FlowTables, Kind, Kinds};
 use crate::scene::Scene;
 
 /// The flow of a case and a problem of some model, if its values allow one; or that the tables are none of the model's.
@@ -18,9 +19,9 @@ type Built = Result<(Scene, Option<Arc<dyn Solve>>), serde_json::Error>;
 pub struct Entry {
     /// what it is called
     pub info: ModelInfo,
-    kinds: fn() -> [Kind; 2],
-    build: fn(&Case, &mut Faults) -> Built,
-    convert: fn(&Case) -> Option<Value>,
+    kind: fn() -> Kind,
+    scene: &'static str,
+    build: fn(&Case, &[(&'static str, ModelInfo)], &mut Faults) -> Built,
     offer: fn(&Flow, f64) -> Option<Offer>,
 }
 
@@ -28,8 +29,8 @@ impl Entry {
     /// The model `M`.
     #[must_use]
     pub fn of<M: Model>() -> Self {
-        let kinds = || [Kind::of::<M::Tables>(M::INFO.name), Kind::of_scene::<M::Scene, M::Table>(M::INFO.table)];
-        Self { info: M::INFO, kinds, build: build::<M>, convert: convert::<M>, offer: M::offer }
+        let kind = || Kind::of::<M::Scene, M::Table>(M::INFO.name);
+        Self { info: M::INFO, kind, scene: M::Scene::KIND, build: build::<M>, offer: M::offer }
     }
 
     /// The case with which the model would answer `flow` to the relative error `tolerance`, if it can.
@@ -42,17 +43,42 @@ impl Entry {
 /// The flow of a case of the model `M`, and its table.
 fn parts<M: Model>(case: &Case) -> Result<(M::Scene, M::Table), serde_json::Error> {
     let mut tables = case.tables().clone();
-    if !case.is_scene() {
-        return serde_json::from_value(tables).map(|tables| M::split(&tables));
-    }
-    let own = tables.as_object_mut().and_then(|tables| tables.shift_remove(M::INFO.table));
+    let own = tables.as_object_mut().and_then(|tables| tables.shift_remove(M::INFO.name));
     Ok((serde_json::from_value(tables)?, serde_json::from_value(own.unwrap_or_default())?))
 }
 
-fn build<M: Model>(case: &Case, faults: &mut Faults) -> Built {
+fn build<M: Model>(case: &Case, others: &[(&'static str, ModelInfo)], faults: &mut Faults) -> Built {
     let (scene, table) = parts::<M>(case)?;
-    let model = M::build(&scene, &table, faults).map(|model| Arc::new(model) as Arc<dyn Solve>);
+    let model = built::<M>(&scene, &table, others, faults).map(|model| Arc::new(model) as Arc<dyn Solve>);
     Ok((scene.into(), model))
+}
+
+/// What is wrong with the flow itself, then with the flow and the table together; where both point at the same value, the flow's fault says
+/// enough.
+fn built<M: Model>(
+    scene: &M::Scene,
+    table: &M::Table,
+    others: &[(&'static str, ModelInfo)],
+    faults: &mut Faults,
+) -> Option<M> {
+    takes(scene, &M::INFO, others, faults);
+    let mut own = Faults::new();
+    for (path, fault) in scene.faults() {
+        match fault {
+            // Which drives there should be is clear when those that the model does not solve are gone.
+            Fault::Drives { .. } if !faults.is_empty() => {}
+            Fault::Drives { given, allowed } => {
+                let allowed = allowed.into_iter().filter(|drives| M::INFO.solves_all(drives)).collect();
+                own.push((path, Fault::Drives { given, allowed }));
+            }
+            fault => own.push((path, fault)),
+        }
+    }
+    faults.also(own);
+    let mut own = Faults::new();
+    let model = M::build(scene, table, &mut own);
+    faults.also(own);
+    model
 }
 
 /// The models that a program knows.
@@ -68,7 +94,7 @@ impl Registry {
     pub fn with(mut self, entry: Entry) -> Self {
         self.entries.retain(|known| known.info.name != entry.info.name);
         self.entries.push(entry);
-        (entry.kinds)().into_iter().for_each(|kind| Arc::make_mut(&mut self.kinds).push(kind));
+        Arc::make_mut(&mut self.kinds).push((entry.kind)());
         self
     }
 
@@ -98,6 +124,32 @@ impl Registry {
         self.check(Case::load(&self.kinds, name, overrides))
     }
 
+    /// The cases that `name` stands for, as names that [`Self::load`] takes: with each of `models`; without any with those that the case
+    /// has, or with all that take a scene alone.
+    ///
+    /// # Errors
+    /// The case is wrong, or no model takes it.
+    pub fn cases_of(&self, name: &str, overrides: &[String], models: &[String]) -> Result<Vec<String>, Box<CaseError>> {
+        let with = |model: &str| format!("{name}:{model}");
+        if !models.is_empty() {
+            return Ok(models.iter().map(|model| with(model)).collect());
+        }
+        let error = match self.load(name, overrides) {
+            Ok(_) => return Ok(vec![name.to_owned()]),
+            Err(error) => Box::new(error),
+        };
+        let Some(choices) = error.choices() else { return Err(error) };
+        let alone = choices.alone;
+        let takes = |model: &&String| !alone || self.clone().choosing(model).load(name, overrides).is_ok();
+        let cases: Vec<String> = choices.models.iter().filter(takes).map(|model| with(model)).collect();
+        if cases.is_empty() { Err(error) } else { Ok(cases) }
+    }
+
+    /// The case with each model that takes its scene, from least to most.
+    pub fn takers<'a>(&'a self, name: &'a str, overrides: &'a [String]) -> impl Iterator<Item = Checked> + 'a {
+        self.entries.iter().filter_map(move |entry| self.clone().choosing(entry.info.name).load(name, overrides).ok())
+    }
+
     /// The same of the text of a case: `name` is its stem, `source` what diagnostics call it.
     ///
     /// # Errors
@@ -119,14 +171,7 @@ impl Registry {
 
     /// The model of a case.
     fn entry(&self, case: &Case) -> Option<&Entry> {
-        let named = |entry: &&Entry| [entry.info.name, entry.info.table][usize::from(case.is_scene())] == case.model;
-        self.entries.iter().find(named)
-    }
-
-    /// The case in format 2: the flow, and the table of its model. Quantities are in SI, every default is filled in.
-    #[must_use]
-    pub fn converted(&self, case: &Case) -> Option<String> {
-        self.entry(case).and_then(|entry| (entry.convert)(case)).map(crate::case::text)
+        self.entries.iter().find(|entry| entry.info.name == case.model)
     }
 
     /// Checks what no schema can: values against each other, laws against the model, checks against the results.
@@ -134,13 +179,14 @@ impl Registry {
         let mut faults = Faults::new();
         let entry = self.entry(case);
         // The tables were read once: that this fails cannot happen to a case that this registry read.
-        let built = entry.and_then(|entry| (entry.build)(case, &mut faults).ok());
+        let others: Vec<_> = self.entries.iter().map(|entry| (entry.scene, entry.info)).collect();
+        let built = entry.and_then(|entry| (entry.build)(case, &others, &mut faults).ok());
         checks(case, &mut faults);
         match (built, entry) {
             (Some((scene, Some(solver))), Some(entry)) if faults.is_empty() => {
                 Ok(Problem::new(case, scene, entry.info, solver))
             }
-            _ => Err(case.clone().refuse(placed(case, faults))),
+            _ => Err(case.clone().refuse(&self.kinds, placed(case, faults))),
         }
     }
 }
@@ -150,21 +196,21 @@ fn placed(case: &Case, faults: Faults) -> Vec<(String, Arc<dyn CaseFault>)> {
     faults.0.into_iter().map(|(path, fault)| (case.place(&path), fault)).collect()
 }
 
-/// The typed problem of a case of the model `M`: a file or a shipped case, with `--set` overrides.
+/// The typed problem of a case of the model `M`: a file or a shipped case, with `--set` overrides. Tables of other models may stand beside.
 ///
 /// # Errors
 /// Every violation, as [`Registry::load`].
 pub fn read<M: Model>(name: &str, overrides: &[String]) -> Result<M, CaseError> {
-    let kinds = [Kind::of::<M::Tables>(M::INFO.name), Kind::of_scene::<M::Scene, M::Table>(M::INFO.table)];
-    let case = Case::load(&Kinds::new(kinds.into()), name, overrides)?;
-    from_case::<M>(&case)
+    let kinds = Kinds::new(vec![Kind::of::<M::Scene, M::Table>(M::INFO.name)]).partial();
+    let case = Case::load(&kinds, name, overrides)?;
+    from_case::<M>(&kinds, &case)
 }
 
-fn from_case<M: Model>(case: &Case) -> Result<M, CaseError> {
+fn from_case<M: Model>(kinds: &Kinds, case: &Case) -> Result<M, CaseError> {
     let mut faults = Faults::new();
-    match parts::<M>(case).ok().and_then(|(scene, table)| M::build(&scene, &table, &mut faults)) {
+    match parts::<M>(case).ok().and_then(|(scene, table)| built::<M>(&scene, &table, &[], &mut faults)) {
         Some(problem) if faults.is_empty() => Ok(problem),
-        _ => Err(case.clone().refuse(placed(case, faults))),
+        _ => Err(case.clone().refuse(kinds, placed(case, faults))),
     }
 }
 
@@ -176,13 +222,8 @@ fn written<M: Model>(about: &impl Serialize, scene: &M::Scene, table: &M::Table)
     tables.insert("scene".into(), M::Scene::KIND.into());
     tables.insert("case".into(), of(serde_json::to_value(about)));
     tables.extend(of(serde_json::to_value(scene)).as_object().cloned().unwrap_or_default());
-    tables.insert(M::INFO.table.into(), of(serde_json::to_value(table)));
+    tables.insert(M::INFO.name.into(), of(serde_json::to_value(table)));
     Value::Object(tables)
-}
-
-fn convert<M: Model>(case: &Case) -> Option<Value> {
-    let (scene, table) = parts::<M>(case).ok()?;
-    Some(written::<M>(case.about(), &scene, &table))
 }
 
 /// The problem of a flow and a table that were made without a case file, checked as a file is: ranges of the schema, then values
@@ -192,6 +233,6 @@ fn convert<M: Model>(case: &Case) -> Option<Value> {
 /// Every violation; its places point into the two written as a case.
 pub fn checked<M: Model>(title: &str, scene: &M::Scene, table: &M::Table) -> Result<M, CaseError> {
     let tables = written::<M>(&json!({ "title": title }), scene, table);
-    let kinds = Kinds::new(vec![Kind::of_scene::<M::Scene, M::Table>(M::INFO.table)]);
-    from_case::<M>(&Case::parse(&kinds, title, "tables", crate::case::text(tables), &[])?)
+    let kinds = Kinds::new(vec![Kind::of::<M::Scene, M::Table>(M::INFO.name)]);
+    from_case::<M>(&kinds, &Case::parse(&kinds, title, "tables", crate::case::text(tables), &[])?)
 }

@@ -58,7 +58,7 @@ impl MethodError for BedError {
     fn hint(&self) -> String {
         match self {
             Self::WholeBedMoves { limit_pa_m, .. } => {
-                format!("drive it with less than {limit_pa_m:.4} Pa/m, or make the bed deeper (bed.level)")
+                format!("drive it with less than {limit_pa_m:.4} Pa/m, or make the bed deeper (bed.thickness)")
             }
             Self::NoStaticBed { .. } => "lower the drive, or raise mu_s or phi".into(),
             Self::OutOfReach { .. } => "ask for less, raise mu_s, or leave more room above the bed".into(),

@@ -6,14 +6,9 @@ use crate::result::codes;
 /// Values of a bed, its grains and the flow over it that do not go together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BedFault {
-    /// A bed that fills the flow.
-    #[error("the bed level {level} m is not below the flow height {height} m")]
-    NoRoomForFlow {
-        /// bed level \[m]
-        level: f64,
-        /// flow height \[m]
-        height: f64,
-    },
+    /// No fluid over the bed.
+    #[error("the flow has no depth over the bed")]
+    NoDepth,
     /// Grains that float.
     #[error("the grains ({grains} kg/m3) are not denser than the fluid ({fluid} kg/m3): no bed")]
     Floating {
@@ -53,7 +48,7 @@ pub enum BedFault {
 }
 
 codes!(BedFault {
-    Self::NoRoomForFlow { .. } => "no-room-for-flow",
+    Self::NoDepth => "no-depth",
     Self::Floating { .. } => "floating-grains",
     Self::ThinnerThanAGrain { .. } => "thinner-than-a-grain",
     Self::FrictionFalls { .. } => "friction-falls",
@@ -67,7 +62,7 @@ impl CaseFault for BedFault {
 
     fn allowed(&self) -> Option<String> {
         match self {
-            Self::NoRoomForFlow { height, .. } => Some(format!("more than 0 and less than {height} m")),
+            Self::NoDepth => Some("more than 0 m".into()),
             Self::Floating { fluid, .. } => Some(format!("more than {fluid} kg/m3")),
             Self::ThinnerThanAGrain { diameter, .. } => Some(format!("at least {diameter} m")),
             Self::FrictionFalls { mu_s, .. } => Some(format!("more than {mu_s}")),

@@ -105,6 +105,9 @@ pub enum OutputError {
         /// that case
         case: String,
     },
+    /// a run of a case of format 1
+    #[error("{} holds a run of a case of format 1, which no case of this program is", .0.display())]
+    OldFormat(PathBuf),
     /// the same case, not finished
     #[error("{} holds an unfinished run of this case ({status})", folder.display())]
     Unfinished {
@@ -164,6 +167,7 @@ codes!(OutputError {
     Self::OtherStudy { .. } => "other-study",
     Self::UnfinishedStudy { .. } => "unfinished-study",
     Self::OtherCase { .. } => "other-case",
+    Self::OldFormat(_) => "old-run",
     Self::Unfinished { .. } => "unfinished-run",
     Self::Unwritable { .. } => "unwritable",
     Self::NotARun { .. } => "not-a-run",
@@ -187,6 +191,9 @@ impl OutputError {
             Self::OtherStudy { .. } => "give another folder with --out, or --force to replace that study",
             Self::UnfinishedStudy { .. } => "--resume to keep the points that are done, --force to start again",
             Self::OtherCase { .. } => "give another folder with --out, or --force to replace that run",
+            Self::OldFormat(_) => {
+                "it cannot be gone on with: give another folder with --out, or --force to replace it; report and compare read it"
+            }
             Self::Unfinished { .. } => "--resume to go on, --force to start again",
             Self::NotARun { .. } => "give a folder that `bedload run` wrote",
             Self::Interrupted { .. } => "nothing that stood there before was touched; free some space and run again",

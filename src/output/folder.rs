@@ -344,13 +344,16 @@ fn may_replace(folder: &Path, case: &str, mode: Mode) -> Result<Stands, OutputEr
     }
     let summary = read_summary(folder)?;
     holds_only(folder, Kind::Run)?;
-    let same = fs::read_to_string(folder.join("case.toml")).is_ok_and(|text| text == case);
+    let held = fs::read_to_string(folder.join("case.toml"));
+    let same = held.as_ref().is_ok_and(|text| text == case);
+    let old = held.is_ok_and(|text| text.lines().any(|line| line.trim() == "format = 1"));
     let stands = Stands { status: summary.status, same, goes_on: false };
     match (same, summary.status) {
         _ if mode.force => Ok(stands),
         (true, Status::Done) => Ok(stands),
         (true, _) if mode.resume => Ok(stands),
         (true, status) => Err(OutputError::Unfinished { folder: folder.into(), status }),
+        _ if old => Err(OutputError::OldFormat(folder.into())),
         (false, _) => Err(OutputError::OtherCase { folder: folder.into(), case: summary.case }),
     }
 }

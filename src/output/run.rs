@@ -57,6 +57,8 @@ fn begin(head: &Head) -> Summary {
             source: head.source.clone(),
             overrides: head.overrides.clone(),
             case_sha256: fingerprint(&head.resolved),
+            scene_sha256: fingerprint(&head.parts[0]),
+            model_sha256: fingerprint(&head.parts[1]),
             threads: head.threads,
             ..Provenance::of_this_program()
         },

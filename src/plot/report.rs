@@ -230,6 +230,8 @@ fn origin(summary: &Summary) -> String {
         ("case", p.source.clone()),
         ("set", p.overrides.join("  ")),
         ("SHA-256 of the case", p.case_sha256.clone()),
+        ("of its scene", p.scene_sha256.clone()),
+        ("of its model", p.model_sha256.clone()),
         ("started", p.started_utc.clone()),
         ("threads", p.threads.to_string()),
     ];

@@ -39,7 +39,7 @@ fn summary(case: &str, model: &str, results: Results) -> Summary {
             work_units: LEVELS as f64,
             ..Cost::default()
         },
-        provenance: Provenance { source: "exact_1d_ouriemi".into(), ..Provenance::of_this_program() },
+        provenance: Provenance { source: "bed_ouriemi-laminar-exact".into(), ..Provenance::of_this_program() },
     }
 }
 
@@ -130,7 +130,7 @@ pub(super) fn laminar_bed() -> (Profile, Summary) {
     profile.push(&q::TAU_VISCOUS, bed.column(|z| Some(bed.at(z).1))).unwrap();
     profile.push(&q::TAU_REYNOLDS, bed.column(|_| Some(0.0))).unwrap();
     profile.push(&q::TAU_PARTICLE, bed.column(|z| Some(bed.at(z).2))).unwrap();
-    (profile, summary("exact_1d_ouriemi", "exact/ouriemi (mixed)", bed.results()))
+    (profile, summary("bed_ouriemi-laminar-exact", "exact/ouriemi (mixed)", bed.results()))
 }
 
 /// The same with a slip between the phases.

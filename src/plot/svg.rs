@@ -168,7 +168,7 @@ mod tests {
         assert!(!drawing.contains(" width=\"7600\"") && drawing.contains("viewBox=\"0 0 7600 "));
         assert!(drawing.contains("role=\"img\"") && drawing.contains("class=\"s-c2 d1\""));
         assert!(drawing.contains(">velocity (mm/s)</text>") && drawing.contains(">bed level</text>"));
-        assert!(drawing.contains("<title>exact_1d_ouriemi: (a) velocity"));
+        assert!(drawing.contains("<title>bed_ouriemi-laminar-exact: (a) velocity"));
     }
 
     #[test]

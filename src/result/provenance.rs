@@ -20,6 +20,12 @@ pub struct Provenance {
     pub overrides: Vec<String>,
     /// SHA-256 of the resolved case
     pub case_sha256: String,
+    /// SHA-256 of its scene: the same for every model of the flow
+    #[serde(default)]
+    pub scene_sha256: String,
+    /// SHA-256 of the table of its model
+    #[serde(default)]
+    pub model_sha256: String,
     /// start of the run, UTC
     pub started_utc: String,
     /// threads that the run may use

@@ -183,7 +183,7 @@ catalogue! {
     TIME_STEP = "time_step_s", "time step", "Δt", "s", "of the grains";
     TIME_STEP_RATIO = "time_step_over_limit", "time step over its stability limit", "Δt/Δt_max", "1", "limit of the grain that sets it, with its contacts at the end";
     WELL_POSEDNESS = "well_posedness", "condition of well-posedness", "C", "1", "4n² - 4n + μ²(1 - n/2)², n = I μ'/μ: above 0 the same flow is ill-posed in two and three dimensions (Barker et al. 2015)";
-    FROZEN_BELOW = "held_below_m", "grains are frozen below", "z_h", "m", "top of the layers of the deep bed that hardly creep and are frozen, at the end";
+    FROZEN_BELOW = "frozen_below_m", "grains are frozen below", "z_h", "m", "top of the layers of the deep bed that hardly creep and are frozen, at the end";
     DRAG_LIMIT = "time_step_drag_limit_s", "longest time step that the drag bears", "Δt_d", "s", "2 m over the slope of the drag, of the grain where it is least, at the end";
     EXPLICIT_LIMIT = "fluid_step_limit_s", "longest explicit step of the fluid", "Δt_f", "s", "2 over the largest sum of magnitudes in a row of the derivatives of the momentum balance, at the end";
     COORDINATION = "coordination", "coordination number", "Z", "1", "contacts of a mobile grain with grains and walls, mean over time";

@@ -37,7 +37,7 @@ pub struct Head {
     pub case: String,
     /// the question that the case answers
     pub title: String,
-    /// the model in words: `exact/ouriemi, two-fluid`
+    /// the model in words: `laminar-exact, two-fluid`
     pub model: String,
     /// the flow, where a case states it
     pub scene: Option<SceneRecord>,
@@ -47,6 +47,8 @@ pub struct Head {
     pub overrides: Vec<String>,
     /// the resolved case as the text of a case file
     pub resolved: String,
+    /// its scene and the table of its model, as texts
+    pub parts: [String; 2],
     /// threads of the run
     pub threads: usize,
     /// equations and laws

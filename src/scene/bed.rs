@@ -27,6 +27,7 @@ pub struct BedScene {
     /// The grains.
     pub grains: Grains,
     /// The bed at rest.
+    #[serde(default)]
     pub bed: Bed,
     /// The flow over it, and what drives it.
     pub flow: BedFlow,
@@ -39,21 +40,28 @@ pub struct Bed {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
     pub thickness: Option<f64>,
-    /// Solid fraction of the bed at rest; 0.7405 is the densest packing of equal spheres.
+    /// Solid fraction of the bed at rest; left out, it is 0.6. 0.7405 is the densest packing of equal spheres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
     pub phi: Option<f64>,
 }
 
 impl Bed {
+    /// Solid fraction: given, or that of a random packing of spheres with friction.
+    #[must_use]
+    pub fn phi(&self) -> Given {
+        self.phi.map_or(Given::Derived(0.6), Given::Given)
+    }
+
     /// Solid volume per area \[m].
     #[must_use]
     pub fn solid_volume(&self) -> Option<f64> {
-        Some(self.thickness? * self.phi?)
+        Some(self.thickness? * self.phi().value())
     }
 }
 
-/// The clear fluid over a bed, and what drives it. Which of the drives are given is checked by the model.
+/// The clear fluid over a bed, and what drives it: under a free surface two of depth, slope and stress (shields or u_star), under a lid or a
+/// plane the depth and one drive.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedFlow {
     /// Depth of the clear fluid over the bed at rest; left out, it follows from the drive or from the top.
@@ -229,7 +237,7 @@ impl BedScene {
     pub fn shields_drive(&self) -> Option<f64> {
         let flow = &self.flow;
         let weight = || {
-            let (depth, sine) = (flow.depth?, flow.sine().ok()??);
+            let (depth, sine) = (self.depth()?, flow.sine().ok()??);
             (flow.top == Top::FreeSurface)
                 .then(|| self.fluid.density * flow.gravity * depth * sine / self.stress_scale())
         };
@@ -265,7 +273,7 @@ impl BedScene {
             ),
             SceneNumber::new("settling_velocity_m_s", w_s, "w_s: given, or of a sphere alone, Cheng (2009)"),
         ];
-        numbers.extend(self.flow.depth.map(|depth| SceneNumber::new("submergence", depth / d, "depth over d")));
+        numbers.extend(self.depth().map(|depth| SceneNumber::new("submergence", depth / d, "depth over d")));
         let Some((theta, u_star)) = self.shields_drive().zip(self.u_star_drive()) else { return numbers };
         numbers.extend([
             SceneNumber::new("shields_drive", theta, "τ/((ρ_p - ρ_f) g d) of the drive alone, no side walls"),

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::bed::Section;
 use super::{Grains, SceneNumber};
-use crate::case::tables::{BinghamFluid, Fluid};
+use crate::case::tables::Fluid;
 
 /// A fluid with or without a yield stress.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -20,12 +20,6 @@ pub struct Material {
     #[serde(default)]
     #[schemars(extend("x-unit" = "Pa", "minimum" = 0.0, "maximum" = 1e9))]
     pub yield_stress: f64,
-}
-
-impl From<&BinghamFluid> for Material {
-    fn from(fluid: &BinghamFluid) -> Self {
-        Self { density: fluid.density, viscosity: fluid.viscosity, yield_stress: fluid.yield_stress }
-    }
 }
 
 impl From<&Fluid> for Material {

@@ -16,6 +16,7 @@ pub struct GranularScene {
     #[serde(default)]
     pub bed: Bed,
     /// Its tilt and its walls.
+    #[serde(default)]
     pub flow: GranularFlow,
 }
 
@@ -27,8 +28,8 @@ pub struct GranularFlow {
     #[serde(default)]
     pub slope: f64,
     /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
-    #[serde(default = "tangent")]
-    pub slope_definition: SlopeDefinition,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slope_definition: Option<SlopeDefinition>,
     /// Acceleration of gravity.
     #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     #[serde(default = "standard_gravity")]
@@ -39,8 +40,10 @@ pub struct GranularFlow {
     pub width: Option<f64>,
 }
 
-fn tangent() -> SlopeDefinition {
-    SlopeDefinition::Tangent
+impl Default for GranularFlow {
+    fn default() -> Self {
+        Self { slope: 0.0, slope_definition: None, gravity: standard_gravity(), width: None }
+    }
 }
 
 impl GranularFlow {
@@ -49,7 +52,8 @@ impl GranularFlow {
     /// # Errors
     /// [`Fault::TooSteep`].
     pub fn angle(&self) -> Result<f64, Fault> {
-        self.slope_definition.angle(self.slope)
+        // Without a definition it is level: a number without one is a fault of the scene.
+        self.slope_definition.map_or(Ok(0.0), |definition| definition.angle(self.slope))
     }
 }
 

@@ -14,6 +14,7 @@
 
 mod bed;
 mod channel;
+mod drive;
 mod granular;
 mod number;
 
@@ -26,7 +27,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
-use crate::case::FlowTables;
+use crate::case::{Fault, FlowTables};
 use crate::result::{SceneRecord, flatten};
 
 /// The grains.
@@ -38,11 +39,11 @@ pub struct Grains {
     /// Density of the grains.
     #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0, "maximum" = 30000.0))]
     pub density: f64,
-    /// Restitution coefficient of two grains.
+    /// Restitution coefficient of two grains; left out, it is 0.7.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1.0))]
     pub restitution: Option<f64>,
-    /// Friction coefficient between two grains.
+    /// Friction coefficient between two grains; left out, it is 0.4.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
     pub friction: Option<f64>,
@@ -53,6 +54,18 @@ pub struct Grains {
 }
 
 impl Grains {
+    /// Friction coefficient between two grains: given, or that of glass beads (Maurin et al. 2015).
+    #[must_use]
+    pub fn friction(&self) -> Given {
+        self.friction.map_or(Given::Derived(0.4), Given::Given)
+    }
+
+    /// Restitution coefficient of two grains: given, or that of glass beads in the reference flow of Chassagne et al. (2023).
+    #[must_use]
+    pub fn restitution(&self) -> Given {
+        self.restitution.map_or(Given::Derived(0.7), Given::Given)
+    }
+
     /// Grains of which nothing but this is known.
     #[must_use]
     pub fn new(diameter: f64, density: f64) -> Self {
@@ -79,6 +92,18 @@ macro_rules! kinds {
     ($($kind:ident($scene:ident) = $word:literal),*) => {
         $(impl FlowTables for $scene {
             const KIND: &'static str = $word;
+
+            fn faults(&self) -> Vec<(&'static str, Fault)> {
+                $scene::faults(self)
+            }
+
+            fn given(&self) -> Vec<&'static str> {
+                $scene::given(self)
+            }
+
+            fn top(&self) -> Option<&'static str> {
+                $scene::top(self)
+            }
         }
 
         impl From<$scene> for Scene {
@@ -118,6 +143,42 @@ impl Scene {
             Self::Benchmark(_) => Vec::new(),
         };
         numbers.into_iter().filter(|number| number.value.is_finite()).collect()
+    }
+
+    /// What it does not say and follows, by key: value, and where it comes from.
+    #[must_use]
+    pub fn derived(&self) -> Vec<(&'static str, f64, &'static str)> {
+        let of_grains = |grains: &Grains| {
+            vec![
+                ("grains.friction", grains.friction(), "glass beads: Maurin et al. (2015)"),
+                ("grains.restitution", grains.restitution(), "glass beads: Chassagne et al. (2023)"),
+            ]
+        };
+        let packing = |bed: &Bed| ("bed.phi", bed.phi(), "a random packing of spheres with friction");
+        let all = match self {
+            Self::Bed(scene) => {
+                let mut all = of_grains(&scene.grains);
+                let sphere = "a sphere alone: Cheng (2009)";
+                all.extend([packing(&scene.bed), ("grains.settling_velocity", scene.settling_velocity(), sphere)]);
+                let surface = scene.flow.top == Top::FreeSurface;
+                if let (None, Some(depth), true) = (scene.flow.depth, scene.depth(), surface) {
+                    all.push(("flow.depth", Given::Derived(depth), "the stress wanted on the bed at this slope"));
+                }
+                if let (None, Some(angle), true) = (scene.flow.slope, scene.slope(), surface) {
+                    let sine = Given::Derived(angle.sin());
+                    all.push(("sine of flow.slope", sine, "the stress wanted on the bed under this depth"));
+                }
+                all
+            }
+            Self::Granular(scene) => [of_grains(&scene.grains), vec![packing(&scene.bed)]].concat(),
+            Self::Channel(_) => Vec::new(),
+            Self::Benchmark(scene) => scene.grains.as_ref().map(of_grains).unwrap_or_default(),
+        };
+        let derived = |(key, given, from)| match given {
+            Given::Derived(value) => Some((key, value, from)),
+            Given::Given(_) => None,
+        };
+        all.into_iter().filter_map(derived).collect()
     }
 
     /// Solid volume of the bed at rest per area \[m], without pores; `None` where the scene does not say.

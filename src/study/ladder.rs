@@ -51,14 +51,14 @@ mod tests {
     #[test]
     fn the_rungs_are_cases_that_are_accepted() {
         let counts = |case| accepted(case).iter().map(|(_, n)| *n).collect::<Vec<_>>();
-        assert_eq!(counts("laminar_1d_ouriemi"), [6, 12, 12, 12]);
+        assert_eq!(counts("bed_ouriemi-laminar"), [6, 12, 12, 12]);
         assert_eq!(counts("bingham_1d_plane"), [6, 12, 12, 12]);
         assert_eq!(counts("sheet_1d_sumer91"), [6, 6, 6]);
         assert_eq!(counts("section_2d_square_bed"), [5, 3, 12, 12]);
         // A quarter of that cell is less than a case may have.
-        assert_eq!(counts("coupled_3d_chassagne_quick").iter().sum::<usize>(), 11);
+        assert_eq!(counts("flow_theta06_quick-coupled").iter().sum::<usize>(), 11);
         assert_eq!(counts("section_3d_square_bed"), [4]);
-        assert_eq!(counts("kinetic_1d_theta06"), [4, 4]);
-        assert_eq!(counts("exact_1d_ouriemi"), [1]);
+        assert_eq!(counts("flow_theta06-two-fluid"), [4, 4]);
+        assert_eq!(counts("bed_ouriemi-laminar-exact"), [1]);
     }
 }

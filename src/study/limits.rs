@@ -216,7 +216,7 @@ mod tests {
     #[test]
     fn a_failure_has_the_class_of_its_error_and_a_bad_case_is_refused() {
         let request = Request {
-            case: "laminar_1d_ouriemi".into(),
+            case: "bed_ouriemi-laminar".into(),
             overrides: Vec::new(),
             over: Vec::new(),
             tolerance: 0.5,
@@ -225,6 +225,6 @@ mod tests {
         let class = |set: &str| attempt(&crate::models::builtin(), &request, &[set.to_owned()]).class;
         assert_eq!(class("grid.cells=48"), Class::Holds);
         assert_eq!(class("flow.pressure_gradient=1e5"), Class::Unphysical);
-        assert_eq!(class("bed.level=1 m"), Class::Refused);
+        assert_eq!(class("bed.phi=0.9"), Class::Refused);
     }
 }

@@ -1,14 +1,14 @@
 //! Values of a swept key, as they are typed: `key=a,b,c`, `key=from:to:count`, `key=from:to:count:log`.
 //!
 //! A unit after the last value holds for all that have none: `flow.pressure_gradient=50:500:10 Pa/m`. Words are values,
-//! too: `model.form=mixed,two-fluid`.
+//! too: `form=mixed,two-fluid`.
 
 use super::StudyError;
 
 /// A key and the values that it takes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Varied {
-    /// `table.key`
+    /// `table.key`, or a key of the model
     pub key: String,
     /// each as it is given to `--set`
     pub values: Vec<String>,
@@ -27,8 +27,8 @@ pub fn parse(argument: &str) -> Result<Varied, StudyError> {
     let bad = |reason: String| StudyError::BadOver { argument: argument.into(), reason };
     let Some((key, rest)) = argument.split_once('=') else { return Err(bad("it has no =".into())) };
     let (key, rest) = (key.trim().to_owned(), rest.trim());
-    if !key.contains('.') {
-        return Err(bad(format!("\"{key}\" is not table.key")));
+    if key.is_empty() {
+        return Err(bad("it names no key".into()));
     }
     let items = split(rest, ',');
     if let Some(empty) = items.iter().position(|item| item.is_empty()) {
@@ -152,7 +152,7 @@ mod tests {
     fn what_is_wrong_is_reported() {
         for (argument, words) in [
             ("a.b", "no ="),
-            ("b=1,2", "not table.key"),
+            ("=1,2", "names no key"),
             ("a.b=1,,2", "value 2 is empty"),
             ("a.b=", "value 1 is empty"),
             ("a.b=1:2", "a range is"),

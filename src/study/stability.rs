@@ -219,10 +219,10 @@ mod tests {
     #[test]
     fn one_or_two_numbers_are_varied() {
         for (over, words) in [
-            (&["model.form=mixed,two-fluid"][..], "takes numbers"),
-            (&["grid.cells=1,2", "flow.slope=1,2", "bed.level=1,2"], "one key or two"),
+            (&["form=mixed,two-fluid"][..], "takes numbers"),
+            (&["grid.cells=1,2", "flow.slope=1,2", "bed.thickness=1,2"], "one key or two"),
         ] {
-            let said = plan(&crate::models::builtin(), &request("laminar_1d_ouriemi", over))
+            let said = plan(&crate::models::builtin(), &request("bed_ouriemi-laminar", over))
                 .err()
                 .map(|e| e.to_string())
                 .unwrap_or_default();
@@ -230,7 +230,7 @@ mod tests {
         }
         let (plan, _) = plan(
             &crate::models::builtin(),
-            &request("laminar_1d_ouriemi", &["grid.cells=24,48", "model.form=mixed,two-fluid"]),
+            &request("bed_ouriemi-laminar", &["grid.cells=24,48", "form=mixed,two-fluid"]),
         )
         .unwrap();
         assert_eq!(plan.points.len(), 4);

@@ -8,7 +8,8 @@ use std::time::Instant;
 
 use super::Verdict;
 use crate::advise::{self, Least};
-use crate::model::Registry;
+use crate::case::CaseError;
+use crate::model::{Checked, Registry};
 use crate::result::Context;
 use crate::units::significant;
 
@@ -112,7 +113,11 @@ fn owned(set: &[&str]) -> Vec<String> {
 
 /// Solves a case: the quantity and the shortest of some times \[s].
 fn solve(registry: &Registry, case: &str, set: &[String], quantity: &str) -> Found {
-    let (_, problem) = registry.load(case, set).map_err(|error| error.to_string())?;
+    solved(registry.load(case, set), quantity)
+}
+
+fn solved(checked: Result<Checked, CaseError>, quantity: &str) -> Found {
+    let (_, problem) = checked.map_err(|error| error.to_string())?;
     let mut best = f64::INFINITY;
     let mut value = None;
     for _ in 0..3 {
@@ -176,11 +181,11 @@ fn advised(
         let Answer { name, found } = answer(least.kind, Ok((run.value, run.seconds)));
         return Answer { name, found: found.map(|(deviation, time)| (deviation.max((stderr / value).abs()), time)) };
     }
-    let found = match &least.overrides {
-        Some(overrides) => solve(registry, least.template, overrides, test.quantity),
-        None => solve(registry, test.case, set, test.quantity),
+    let checked = match &least.case {
+        Some(text) => registry.parse("advised", "advised", text.clone(), &[]),
+        None => registry.load(test.case, set),
     };
-    answer(least.kind, found)
+    answer(least.kind, solved(checked, test.quantity))
 }
 
 /// The table as Markdown, a section of `docs/validation.md`.

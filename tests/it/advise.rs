@@ -6,18 +6,18 @@ use crate::support::Scratch;
 fn the_least_model_follows_the_scene_and_the_tolerance() {
     let scratch = Scratch::new();
     for (case, tolerance, model) in [
-        ("laminar_1d_ouriemi", "0.05", "exact/ouriemi"),
+        ("bed_ouriemi-laminar", "0.05", "laminar-exact"),
         ("laminar_1d_muiv", "0.05", "laminar"),
         ("sheet_1d_sumer91", "0.05", "sheet-flow"),
-        ("coupled_3d_theta04_quick", "0.3", "sheet-flow"),
-        ("coupled_3d_theta04_quick", "0.15", "two-fluid"),
-        ("coupled_3d_theta04_quick", "0.05", "coupled"),
+        ("flow_theta04_quick", "0.3", "sheet-flow"),
+        ("flow_theta04_quick", "0.15", "two-fluid"),
+        ("flow_theta04_quick", "0.05", "coupled"),
         // At 0.2 kinetic theory misses half of the transport.
-        ("coupled_3d_theta02_quick", "0.15", "coupled"),
+        ("flow_theta02_quick", "0.15", "coupled"),
         // Sheet flow was measured on gentle slopes under deep water alone.
         ("coupled_3d_shields_quick", "0.3", "coupled"),
         // Side walls are in no other model.
-        ("coupled_2d_exp20", "0.5", "coupled"),
+        ("flume_exp20", "0.5", "coupled"),
     ] {
         let found = scratch.bedload(["advise", case, "--tolerance", tolerance, "--json"]).exits(0).json();
         assert_eq!(found["model"], model, "{case} {tolerance}");
@@ -34,9 +34,9 @@ fn terms_are_assessed_by_what_dropping_them_costs() {
         (term["keep"].as_bool().unwrap(), term["error"].as_f64())
     };
     let slip = "slip between the phases";
-    let (keep, error) = term("laminar_1d_ouriemi", "grains.diameter=1 mm", slip);
+    let (keep, error) = term("bed_ouriemi-laminar", "grains.diameter=1 mm", slip);
     assert!(!keep && error.unwrap() < 1e-3, "{error:?}");
-    let (keep, error) = term("laminar_1d_ouriemi", "grains.diameter=12 mm", slip);
+    let (keep, error) = term("bed_ouriemi-laminar", "grains.diameter=12 mm", slip);
     assert!(keep && error.unwrap() > 0.05, "{error:?}");
     let (keep, error) = term("sheet_1d_type_b", "flow.shields=1.5", "suspension");
     assert!(keep && error.unwrap() > 0.3, "{error:?}");
@@ -45,7 +45,7 @@ fn terms_are_assessed_by_what_dropping_them_costs() {
 #[test]
 fn the_case_that_it_writes_runs_and_is_not_overwritten() {
     let scratch = Scratch::new();
-    let words = ["advise", "coupled_3d_chassagne_quick", "--tolerance", "0.3", "--write", "least.toml"];
+    let words = ["advise", "flow_theta06_quick-coupled", "--tolerance", "0.3", "--write", "least.toml"];
     scratch.bedload(words).exits(0);
     let found = scratch.bedload(["run", "least.toml", "--json"]).exits(0).json();
     let rate = found["results"]["transport_rate_dimensionless"]["value"].as_f64().unwrap();
@@ -77,9 +77,12 @@ fn what_has_no_choice_is_reported() {
         "--write",
         "moon.toml",
     ];
-    scratch.bedload(["advise", "kinetic_1d_theta06"].into_iter().chain(set)).exits(0);
+    scratch.bedload(["advise", "flow_theta06-two-fluid"].into_iter().chain(set)).exits(0);
     let case = scratch.read("moon.toml");
-    assert!(case.contains("gravity = 1.62") && case.contains("e_n = 0.9") && case.contains("mu = 0.4"), "{case}");
+    assert!(
+        case.contains("gravity = 1.62") && case.contains("restitution = 0.9") && case.contains("friction = 0.4"),
+        "{case}"
+    );
     scratch.bedload(["advise", "sheet_1d_sumer91", "--tolerance", "0"]).exits(2);
     scratch.bedload(["advise", "no_such_case"]).exits(2);
 }

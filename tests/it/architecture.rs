@@ -51,7 +51,6 @@ const BETWEEN_MODELS: &[(&str, &str, &str)] = &[
     ("models::sheet_flow", "models::exact", "how closures out of range are reported"),
     ("models::two_fluid", "models::exact", "how results and closures out of range are reported"),
     ("models::shear_cell", "models::exact", "how results are reported"),
-    ("models::shear_cell", "models::two_fluid", "the grains that collide"),
 ];
 
 /// Edges that should not be: this list may only become shorter.

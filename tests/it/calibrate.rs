@@ -353,7 +353,7 @@ fn wrong_input_is_refused_and_nothing_is_written() {
         let text = format!("{} {}", error["message"], error["hint"]);
         assert!(error["code"] == code && text.contains(says), "{arguments}: {error}");
     }
-    let noisy = calibrate(&scratch, 2, "coupled_2d_exp20_quick", "--to twin.csv --fit mu");
+    let noisy = calibrate(&scratch, 2, "flume_exp20_quick", "--to twin.csv --fit mu");
     assert!(noisy["error"]["message"].as_str().unwrap().contains("noise"), "{noisy}");
     scratch.bedload(["calibrate", RUN, "--to", "twin.csv"]).exits(2);
     assert!(!scratch.path("runs").exists());

@@ -16,7 +16,7 @@ fn measure(point: &Value, name: &str) -> Option<f64> {
 fn the_exact_yield_and_the_closed_form_are_on_the_front_of_the_laminar_bed() {
     let scratch = Scratch::new();
     let found = scratch
-        .bedload(["chart", "laminar_1d_ouriemi", "exact_1d_ouriemi", "--out", "c", "--png", "--json"])
+        .bedload(["chart", "bed_ouriemi-laminar", "bed_ouriemi-laminar-exact", "--out", "c", "--png", "--json"])
         .exits(0)
         .json();
     assert_eq!(points(&found).len(), 43);
@@ -36,15 +36,19 @@ fn the_exact_yield_and_the_closed_form_are_on_the_front_of_the_laminar_bed() {
     assert_eq!(scratch.names("c/figures"), ["chart.png"]);
     let table = scratch.read("c/points.csv");
     assert!(!table.contains("NaN") && !table.contains("inf,"));
-    let again = scratch.bedload(["chart", "laminar_1d_ouriemi", "exact_1d_ouriemi", "--out", "c", "--resume"]).exits(0);
+    let again = scratch
+        .bedload(["chart", "bed_ouriemi-laminar", "bed_ouriemi-laminar-exact", "--out", "c", "--resume"])
+        .exits(0);
     assert!(again.out.contains("(43 before)"), "{}", again.out);
 }
 
 #[test]
 fn a_finished_run_is_a_reference_and_what_is_none_is_refused() {
     let scratch = Scratch::new();
-    scratch.bedload(["run", "laminar_1d_ouriemi", "--set", "regularisation.lambda_scaled=1e-4", "--out", "r"]).exits(0);
-    let case = ["chart", "laminar_1d_ouriemi", "--json", "--out", "c", "--reference"];
+    scratch
+        .bedload(["run", "bed_ouriemi-laminar", "--set", "regularisation.lambda_scaled=1e-4", "--out", "r"])
+        .exits(0);
+    let case = ["chart", "bed_ouriemi-laminar", "--json", "--out", "c", "--reference"];
     let found = scratch.bedload(case.iter().chain(&["r"])).exits(0).json();
     let same = points(&found).iter().find(|p| p["values"]["setting"] == "λ = 1e-4, 384 cells").unwrap();
     assert!(measure(same, "error").unwrap() < 0.01, "{same}");
@@ -69,9 +73,9 @@ fn limits(scratch: &Scratch, case: &str, over: &str, more: &[&str]) -> Vec<(f64,
 fn the_laminar_bed_moves_to_its_bottom_where_the_closed_form_says() {
     let scratch = Scratch::new();
     let over = "flow.pressure_gradient=1000:4000:4 Pa/m";
-    let sets = ["model.form=mixed", "closures.drag=", "regularisation.law=none", "regularisation.lambda_scaled="];
+    let sets = ["form=mixed", "closures.drag=", "regularisation.law=none", "regularisation.lambda_scaled="];
     let mixed: Vec<&str> = sets.iter().flat_map(|set| ["--set", set]).collect();
-    let found = limits(&scratch, "laminar_1d_ouriemi", over, &mixed);
+    let found = limits(&scratch, "bed_ouriemi-laminar", over, &mixed);
     // f = mu_s phi (1 + 2 e)/(1 + 3 e), e = 1 + 2.5 phi, in units of (rho_p - rho_f) g = 14715 Pa/m
     let (yields, e) = (0.43 * 0.55, 1.0 + 2.5 * 0.55);
     let predicted = 14715.0 * yields * (1.0 + 2.0 * e) / (1.0 + 3.0 * e);
@@ -83,7 +87,7 @@ fn the_laminar_bed_moves_to_its_bottom_where_the_closed_form_says() {
     let at = |share: f64| format!("flow.pressure_gradient={} Pa/m", share * predicted);
     let run = |share: f64, out: &str| {
         let step = at(share);
-        let words = ["run", "laminar_1d_ouriemi", "--json", "--out", out, "--set", &step];
+        let words = ["run", "bed_ouriemi-laminar", "--json", "--out", out, "--set", &step];
         scratch.bedload(words.iter().chain(&mixed))
     };
     run(0.999, "in").exits(0);
@@ -94,7 +98,7 @@ fn the_laminar_bed_moves_to_its_bottom_where_the_closed_form_says() {
 fn the_step_of_a_bed_is_refused_beyond_its_limit_and_forced_it_diverges() {
     let scratch = Scratch::new();
     let run = |out: &str, more: &[String]| {
-        let set = ["flow.length=24 mm", "flow.width=24 mm", "bed.layers=3"].map(str::to_owned);
+        let set = ["cell.length=24 mm", "cell.width=24 mm", "layers=3"].map(str::to_owned);
         let sets = set.iter().chain(more).flat_map(|set| ["--set".to_owned(), set.clone()]);
         let words = ["run", "grains_3d_bed_quick", "--json", "--out", out].map(str::to_owned);
         scratch.bedload(words.into_iter().chain(sets).collect::<Vec<_>>())

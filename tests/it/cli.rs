@@ -82,12 +82,12 @@ fn quiet_prints_nothing() {
 #[test]
 fn json_is_the_summary_and_where_it_is() {
     let scratch = Scratch::new();
-    let answer = scratch.bedload(["run", "exact_1d_ouriemi", "--out", "here", "--json"]).exits(0);
+    let answer = scratch.bedload(["run", "bed_ouriemi-laminar-exact", "--out", "here", "--json"]).exits(0);
     assert!(answer.err.is_empty(), "{}", answer.err);
     let mut json = answer.json();
     assert_eq!(json.as_object_mut().unwrap().remove("out"), Some(Value::from("here")));
     assert_eq!(json, scratch.summary("here"));
-    let quiet = scratch.bedload(["run", "exact_1d_ouriemi", "--out", "here", "--json", "--quiet"]).exits(0);
+    let quiet = scratch.bedload(["run", "bed_ouriemi-laminar-exact", "--out", "here", "--json", "--quiet"]).exits(0);
     assert_eq!(quiet.json()["status"], "done");
 }
 
@@ -117,7 +117,7 @@ fn a_panic_is_called_a_bug_only_if_it_is_one() {
 fn check_says_valid_and_writes_nothing() {
     let scratch = Scratch::new();
     let json = scratch.bedload(["check", "exact_1d_bagnold", "--json"]).exits(0).json();
-    let wanted = json!({ "status": "valid", "case": "exact_1d_bagnold", "model": "exact/bagnold-film" });
+    let wanted = json!({ "status": "valid", "case": "exact_1d_bagnold", "model": "bagnold-film" });
     assert_eq!(json, wanted);
     let said = scratch.bedload(["check", "exact_1d_bagnold", "--set", "grid.cells=77"]).exits(0).out;
     assert!(said.contains("77 levels"), "{said}");
@@ -132,7 +132,7 @@ fn list_shows_models_cases_and_closures() {
         json[what].as_array().unwrap().iter().map(|row| row["name"].as_str().unwrap().to_owned()).collect()
     };
     assert_eq!(names("cases"), bedload::case::shipped::names().collect::<Vec<_>>());
-    assert!(names("models").contains(&"exact/ouriemi".to_owned()));
+    assert!(names("models").contains(&"laminar-exact".to_owned()));
     assert!(names("closures").contains(&"friction/mu-i".to_owned()));
     for rows in json.as_object().unwrap().values() {
         let silent = rows.as_array().unwrap().iter().find(|row| row["about"].as_str().unwrap().is_empty());
@@ -150,7 +150,7 @@ fn list_shows_models_cases_and_closures() {
 fn explain_fills_in_the_numbers() {
     let scratch = Scratch::new();
     let text = scratch.bedload(["explain", "exact_1d_aussillous"]).exits(0).out;
-    for piece in ["0.19200", "closures.friction, coulomb", "U'' + f = 0", "exact/ouriemi, mixed"] {
+    for piece in ["0.19200", "closures.friction, coulomb", "U'' + f = 0", "laminar-exact, mixed"] {
         assert!(text.contains(piece), "{piece} is not in\n{text}");
     }
     let other = scratch.bedload(["explain", "exact_1d_aussillous", "--set", "closures.friction.mu_s=0.4"]).exits(0).out;

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::support::{Scratch, comparable};
 
-const TWO: &str = "exact_1d_ouriemi";
+const TWO: &str = "bed_ouriemi-laminar-exact";
 const MIXED: &str = "exact_1d_ouriemi_mixed";
 
 #[track_caller]
@@ -27,14 +27,19 @@ fn two_cases_give_a_folder_and_at_most_twelve_lines() {
     let scratch = Scratch::new();
     let (out, err) = exits(&scratch, 0, &["compare", TWO, MIXED, "--png"]);
     assert!((4..=12).contains(&out.lines().count()) && err.is_empty(), "{out}{err}");
-    assert!(out.starts_with("exact_1d_ouriemi is the reference"), "{out}");
-    let target = "runs/compare-exact_1d_ouriemi-exact_1d_ouriemi_mixed";
+    assert!(out.starts_with("bed_ouriemi-laminar-exact is the reference"), "{out}");
+    let target = "runs/compare-bed_ouriemi-laminar-exact-exact_1d_ouriemi_mixed";
     assert_eq!(scratch.names(target), ["compare.json", "figures", "norms.csv", "report.html"]);
     assert!(scratch.names(&format!("{target}/figures")).contains(&"profiles.png".into()));
     assert_eq!(scratch.names("runs").len(), 1, "nothing is left beside it");
     let page = scratch.read(&format!("{target}/report.html"));
-    let order =
-        ["<h1>exact_1d_ouriemi against", "Profiles</h2>", "Numbers</h2>", "<svg class=\"plot\"", "Provenance</h2>"];
+    let order = [
+        "<h1>bed_ouriemi-laminar-exact against",
+        "Profiles</h2>",
+        "Numbers</h2>",
+        "<svg class=\"plot\"",
+        "Provenance</h2>",
+    ];
     let places: Vec<usize> = order.iter().map(|text| page.find(text).unwrap()).collect();
     assert!(places.is_sorted(), "{places:?}");
     let table = scratch.read(&format!("{target}/norms.csv"));
@@ -55,7 +60,7 @@ fn every_input_that_differs_is_named_with_its_values() {
     // Of one model every value of the case counts.
     let found = answer(&scratch, &["compare", TWO, MIXED, "--json", "--out", "one"]);
     let expected = [
-        ("model.form", json!(["two-fluid", "mixed"])),
+        ("form", json!(["two-fluid", "mixed"])),
         ("closures.drag.law", json!(["carman-kozeny", "none"])),
         ("closures.drag.k_ck", json!([180.0, null])),
         ("closures.drag.phi_min", json!([0.0, null])),
@@ -63,18 +68,18 @@ fn every_input_that_differs_is_named_with_its_values() {
     let found = inputs(&found);
     assert_eq!(found, expected.iter().map(|(path, values)| (*path, values)).collect::<Vec<_>>());
     // Of two models, the flow and the laws that both have, a run as well as a case.
-    exits(&scratch, 0, &["run", "laminar_1d_ouriemi", "--set", "bed.level=14 mm", "--out", "run", "--quiet"]);
+    exits(&scratch, 0, &["run", "bed_ouriemi-laminar", "--set", "bed.thickness=14 mm", "--out", "run", "--quiet"]);
     let found = answer(&scratch, &["compare", TWO, "run", "--json", "--out", "two"]);
     let depths = found["inputs"].as_array().unwrap().iter().map(|row| row["path"].as_str().unwrap());
-    assert_eq!(depths.collect::<Vec<_>>(), ["bed.thickness", "flow.depth"]);
+    assert_eq!(depths.collect::<Vec<_>>(), ["bed.thickness"]);
     let warned = found["warnings"].to_string();
     assert!(warned.contains("different amounts of sediment") && warned.contains("7.700 mm"), "{warned}");
     let page = scratch.read("two/report.html");
     assert!(page.contains("Inputs that differ</h2>") && page.contains("solid volume per area"));
     let (out, _) = exits(&scratch, 0, &["compare", TWO, "run", "--out", "two"]);
-    assert!(out.contains("\n  inputs differ    bed.thickness, flow.depth (see the report)\n"), "{out}");
+    assert!(out.contains("\n  inputs differ    bed.thickness (see the report)\n"), "{out}");
     // What is the same flow differs in nothing.
-    let found = answer(&scratch, &["compare", TWO, "laminar_1d_ouriemi", "--json", "--out", "same"]);
+    let found = answer(&scratch, &["compare", TWO, "bed_ouriemi-laminar", "--json", "--out", "same"]);
     assert_eq!(inputs(&found), []);
 }
 
@@ -100,7 +105,7 @@ fn json_is_what_the_folder_holds_and_says_how_far_two_forms_are_apart() {
 fn a_run_and_its_own_case_differ_by_exactly_nothing() {
     let scratch = Scratch::new();
     exits(&scratch, 0, &["run", TWO, "--quiet"]);
-    let run = "runs/exact_1d_ouriemi";
+    let run = "runs/bed_ouriemi-laminar-exact";
     for more in [&[][..], &["--align", "bed"], &["--scale"], &["--align", "none", "--scale"]] {
         let out = format!("c{}", more.join(""));
         let arguments = [&["compare", TWO, run, "--json", "--out", &out], more].concat();
@@ -174,7 +179,7 @@ fn wrong_input_exits_2_and_writes_nothing() {
         (&[TWO, "--data", "bare.csv", "--align", "bed"], "no-number", "bare does not report bed_level_m"),
         (&[TWO, "--data", "bare.csv", "--scale"], "no-number", "# flow_height_m = ..."),
         (&[TWO, "--data", "high.csv", "--scale"], "no-scale", "high does not have mean_velocity_m_s, by which --scale"),
-        (&[TWO, "exact_1d_ouriemie"], "", "exact_1d_ouriemi"),
+        (&[TWO, "exact_1d_ouriemi_mixd"], "", "exact_1d_ouriemi_mixed"),
         (&[TWO, "exact_1d_bagnold"], "different-kinds", "exact_1d_bagnold is a scene of the kind granular"),
     ] {
         let arguments = [&["compare"], arguments].concat();
@@ -212,7 +217,7 @@ fn a_folder_that_is_not_this_comparison_is_refused() {
     exits(&scratch, 0, &["compare", TWO, MIXED, "--out", "c", "--quiet"]);
     let other = ["compare", MIXED, TWO, "--out", "c", "--quiet"];
     let (_, err) = exits(&scratch, 2, &other);
-    assert!(err.contains("holds another comparison: exact_1d_ouriemi, exact_1d_ouriemi_mixed"), "{err}");
+    assert!(err.contains("holds another comparison: bed_ouriemi-laminar-exact, exact_1d_ouriemi_mixed"), "{err}");
     exits(&scratch, 2, &["compare", TWO, MIXED, "--out", "c", "--align", "bed"]);
     exits(&scratch, 0, &[&other[..], &["--force"]].concat());
     // runs and comparisons do not replace each other, even by force

@@ -4,9 +4,8 @@ use serde_json::Value;
 
 use crate::support::Scratch;
 
-const BED: &str = "laminar_1d_ouriemi";
-const MIXED: [&str; 6] =
-    ["--set", "model.form=mixed", "--set", "closures.drag.law=none", "--set", "closures.drag.k_ck="];
+const BED: &str = "bed_ouriemi-laminar";
+const MIXED: [&str; 6] = ["--set", "form=mixed", "--set", "closures.drag.law=none", "--set", "closures.drag.k_ck="];
 const LAWS: [&str; 3] = ["simple", "bercovier-engelman", "papanastasiou"];
 
 #[track_caller]
@@ -146,18 +145,16 @@ fn it_ends_with_at_most_twelve_lines_and_a_model_without_the_setting_is_wrong_in
     let scratch = Scratch::new();
     let said = scratch.bedload(["converge", BED, "--over", "mesh", "--png"]).exits(0);
     assert!((6..=12).contains(&said.out.lines().count()) && said.err.is_empty(), "{}{}", said.out, said.err);
-    let folder = "runs/converge-laminar_1d_ouriemi-mesh";
+    let folder = "runs/converge-bed_ouriemi-laminar-mesh";
     assert!(said.out.contains(&format!("{folder}/report.html")), "{}", said.out);
     assert_eq!(scratch.names(folder), ["figures", "points", "points.csv", "report.html", "study.json"]);
     assert_eq!(scratch.names(&format!("{folder}/figures")), ["convergence.png"]);
-    for case in ["exact_1d_bagnold", "grains_3d_bed", "coupled_3d_chassagne", "impact_1d_headon"] {
+    for case in ["exact_1d_bagnold", "grains_3d_bed", "flow_theta06-coupled", "impact_1d_headon"] {
         for over in ["regularisation", "mesh"] {
             let said = scratch.bedload(["converge", case, "--over", over, "--json"]).exits(2).json();
             assert_eq!(said["error"]["code"], "no-such-setting", "{said}");
             let message = said["error"]["message"].as_str().unwrap();
-            for model in
-                ["laminar", "bingham", "section/duct", "section/bed", "section/cavity", "sheet-flow", "two-fluid"]
-            {
+            for model in ["laminar", "bingham", "duct", "duct-bed", "cavity", "sheet-flow", "two-fluid"] {
                 assert!(message.contains(model), "{message}");
             }
             assert_eq!(message.contains("shear-cell"), over == "mesh", "{message}");
@@ -214,7 +211,7 @@ fn a_sheet_flow_loses_its_creep_with_the_size_and_its_error_much_slower() {
 #[test]
 fn a_sheet_flow_converges_with_its_mesh_at_the_exact_yield_whatever_the_case_says() {
     let scratch = Scratch::new();
-    let iterated = ["model.method=iteration", "regularisation.law=simple", "regularisation.lambda=1e-3"];
+    let iterated = ["method=iteration", "regularisation.law=simple", "regularisation.lambda=1e-3"];
     let iterated: Vec<&str> = iterated.iter().flat_map(|set| ["--set", set]).collect();
     let mut first = None;
     for settings in [&[][..], &iterated] {
@@ -240,7 +237,7 @@ fn a_sheet_flow_converges_with_its_mesh_at_the_exact_yield_whatever_the_case_say
 #[test]
 fn two_fluids_and_a_shear_cell_converge_with_order_two() {
     let scratch = Scratch::new();
-    let found = study(&scratch, &["kinetic_1d_theta06", "--over", "mesh"]);
+    let found = study(&scratch, &["flow_theta06-two-fluid", "--over", "mesh"]);
     for kind in ["cells as in the case", "cells of equal height"] {
         let orders = orders(&found, kind, "grid.cells", "order_velocity_l2");
         assert!(orders.len() == 3 && orders.iter().all(|o| (1.8..2.5).contains(o)), "{kind}: {orders:?}");
@@ -263,7 +260,7 @@ fn two_fluids_and_a_shear_cell_converge_with_order_two() {
 #[test]
 fn the_creep_of_contacts_of_two_fluids_costs_what_its_size_says() {
     let scratch = Scratch::new();
-    let case = ["kinetic_1d_theta06", "--over", "regularisation", "--set", "grid.cells=60"];
+    let case = ["flow_theta06-two-fluid", "--over", "regularisation", "--set", "grid.cells=60"];
     let found = study(&scratch, &case);
     assert_eq!(found["options"]["reference"], "finest");
     let key = "regularisation.shear_rate";

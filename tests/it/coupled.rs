@@ -16,7 +16,7 @@ use crate::support::Scratch;
 
 /// A short piece of the narrow flume.
 const CASE: &[&str] =
-    &["run", "coupled_2d_exp20_quick", "--set", "flow.length=150 mm", "--set", "discrete.duration=4 s", "--quiet"];
+    &["run", "flume_exp20_quick", "--set", "cell.length=150 mm", "--set", "discrete.duration=4 s", "--quiet"];
 
 fn case(more: &[&str]) -> Vec<String> {
     CASE.iter().chain(more).map(|&word| word.to_owned()).collect()
@@ -117,7 +117,7 @@ fn a_flume_ends_when_its_rate_is_known_well_enough() {
 fn what_few_samples_tell_has_no_error_and_ends_no_run() {
     let scratch = Scratch::new();
     let run = |more: &[&str], out: &str| {
-        let words = ["run", "coupled_2d_exp14_quick", "--set", "flow.length=150 mm", "--out", out];
+        let words = ["run", "flume_exp14_quick", "--set", "cell.length=150 mm", "--out", out];
         scratch.bedload(words.into_iter().chain(more.iter().flat_map(|set| ["--set", *set]))).exits(0).out
     };
     for (out, duration) in [("one", "discrete.duration=0.1 s"), ("few", "discrete.duration=1 s")] {
@@ -149,7 +149,7 @@ fn what_few_samples_tell_has_no_error_and_ends_no_run() {
 #[test]
 fn grains_that_give_nothing_back_fall_and_flow() {
     let scratch = Scratch::new();
-    let more = ["--set", "closures.contact.e_n=0.01", "--set", "discrete.duration=0.4 s", "--out", "out"];
+    let more = ["--set", "grains.restitution=0.01", "--set", "discrete.duration=0.4 s", "--out", "out"];
     let period = ["--set", "discrete.sample_period=0.02 s"];
     scratch.bedload(case(&[&more[..], &period].concat())).exits(0);
     let step = number(&scratch.summary("out"), "time_step_s");
@@ -164,7 +164,7 @@ fn a_deep_bed_at_rest_is_frozen_and_the_balances_close() {
         let sets = [
             "discrete.fluid_scheme=implicit",
             "discrete.coupling_period=10 ms",
-            "discrete.hold_period=0.1 s",
+            "discrete.freeze_period=0.1 s",
             "discrete.slice=0.0333",
         ];
         let words = ["run", "coupled_3d_limit_sink", "--json", "--out", "o", "--force"];
@@ -172,13 +172,13 @@ fn a_deep_bed_at_rest_is_frozen_and_the_balances_close() {
         scratch.bedload(words.into_iter().chain(sets)).exits(0).json()
     };
     let number = |found: &serde_json::Value, name: &str| found["results"][name]["value"].as_f64();
-    let (free, never) = (run(&[]), run(&["discrete.hold_creep=1e-12"]));
-    assert_eq!(number(&free, "held_below_m"), None);
-    assert_eq!(number(&never, "held_below_m"), Some(0.0));
+    let (free, never) = (run(&[]), run(&["discrete.freeze_below=1e-12"]));
+    assert_eq!(number(&free, "frozen_below_m"), None);
+    assert_eq!(number(&never, "frozen_below_m"), Some(0.0));
     // To look at the layers changes nothing.
     assert_eq!(number(&free, "transport_rate_m2_s"), number(&never, "transport_rate_m2_s"));
-    let frozen = run(&["discrete.hold_creep=0.5"]);
-    assert!(number(&frozen, "held_below_m").unwrap() >= 6e-3, "{frozen}");
+    let frozen = run(&["discrete.freeze_below=0.5"]);
+    assert!(number(&frozen, "frozen_below_m").unwrap() >= 6e-3, "{frozen}");
     assert!(number(&frozen, "transport_rate_m2_s").unwrap() > 0.0);
     for balance in frozen["balances"].as_array().unwrap() {
         assert!(balance["relative"].as_f64().unwrap().abs() < 1e-12, "{balance}");

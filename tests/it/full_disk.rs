@@ -11,7 +11,7 @@ use super::grains::{case, written};
 use crate::support::{Answer, Scratch};
 
 /// Two small points and one whose profile is some megabytes.
-const SWEEP: &str = "sweep exact_1d_ouriemi --over grid.cells=50,100,20000 --threads 1";
+const SWEEP: &str = "sweep bed_ouriemi-laminar-exact --over grid.cells=50,100,20000 --threads 1";
 
 /// Runs the program where no file may be larger than `kib`; half as much as some shells count.
 fn limited(scratch: &Scratch, kib: usize, arguments: &str) -> Answer {
@@ -95,7 +95,7 @@ fn a_run_over_another_one_keeps_its_checkpoint_beside() {
 #[test]
 fn a_study_keeps_its_finished_points() {
     let scratch = Scratch::new();
-    scratch.bedload(["sweep", "exact_1d_ouriemi", "--over", "grid.cells=50,100", "--out", "small"]).exits(0);
+    scratch.bedload(["sweep", "bed_ouriemi-laminar-exact", "--over", "grid.cells=50,100", "--out", "small"]).exits(0);
     let limit = 2 * largest(&scratch, "small") + 16;
     let study = |flag: &str| format!("{SWEEP} --out s {flag}");
     let answer = limited(&scratch, limit, &study("--json")).exits(1).json();
@@ -142,7 +142,7 @@ fn a_disk_that_fills_keeps_the_points_that_fit() {
         println!("skipped: no disk in memory on this system: {}", probe.err);
         return;
     }
-    let sweep = "sweep exact_1d_ouriemi --over 'flow.pressure_gradient=800:1400:16 Pa/m' --threads 1 --out s";
+    let sweep = "sweep bed_ouriemi-laminar-exact --over 'flow.pressure_gradient=800:1400:16 Pa/m' --threads 1 --out s";
     // A point takes five files: each of them is the one that does not fit in one of these.
     let files = (40..45).map(|files| format!("size=50m,nr_inodes={files}"));
     for full in files.chain(["size=1m".to_owned()]) {
@@ -164,8 +164,9 @@ fn a_disk_that_fills_keeps_the_points_that_fit() {
 #[test]
 fn a_run_that_cannot_take_its_place_stays_beside() {
     let scratch = Scratch::new();
-    scratch.bedload(["run", "exact_1d_ouriemi", "--out", "out", "--quiet"]).exits(0);
-    let long = ["run", "exact_1d_ouriemi", "--set", "grid.cells=1000000", "--out", "out", "--force", "--quiet"];
+    scratch.bedload(["run", "bed_ouriemi-laminar-exact", "--out", "out", "--quiet"]).exits(0);
+    let long =
+        ["run", "bed_ouriemi-laminar-exact", "--set", "grid.cells=1000000", "--out", "out", "--force", "--quiet"];
     let child = scratch.command().args(long).stderr(Stdio::piped()).spawn().unwrap();
     let beside = format!(".out.new-{}", child.id());
     let begin = Instant::now();

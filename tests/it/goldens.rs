@@ -26,10 +26,10 @@ const LONG: &[&str] = &["section_3d_square_bed", "kinetic_1d_settling", "kinetic
 const GRAINS: &[(&str, &[&str])] = &[
     ("grains_2d_column", &["discrete.duration=0.1 s"]),
     ("grains_3d_bed_quick", &["discrete.duration=0.1 s", "discrete.settle=0.2 s"]),
-    ("grains_3d_chute", &["discrete.duration=0.1 s", "discrete.settle=0.1 s", "bed.layers=4"]),
-    ("coupled_2d_exp14_quick", &["discrete.duration=0.4 s", "flow.length=120 mm"]),
-    ("coupled_2d_exp20_quick", &["discrete.duration=0.3 s", "flow.length=120 mm", "discrete.hold_creep=1e-3"]),
-    ("coupled_3d_theta04_quick", &["discrete.duration=0.2 s", "flow.length=30 mm", "flow.width=30 mm"]),
+    ("grains_3d_chute", &["discrete.duration=0.1 s", "discrete.settle=0.1 s", "layers=4"]),
+    ("flume_exp14_quick", &["discrete.duration=0.4 s", "cell.length=120 mm"]),
+    ("flume_exp20_quick", &["discrete.duration=0.3 s", "cell.length=120 mm", "discrete.freeze_below=1e-3"]),
+    ("flow_theta04_quick", &["discrete.duration=0.2 s", "cell.length=30 mm", "cell.width=30 mm"]),
     ("impact_1d_headon", &[]),
     ("impact_1d_headon_tension", &[]),
     ("impact_2d_oblique", &[]),
@@ -172,7 +172,8 @@ fn numbers(outcome: &Outcome) -> BTreeMap<String, f64> {
 }
 
 fn is_grains(name: &str) -> bool {
-    ["coupled", "grains", "impact", "trial"].iter().any(|kind| name.starts_with(kind))
+    let grains = ["coupled", "grains", "impact", "trial", "flume"].iter().any(|kind| name.starts_with(kind));
+    grains || name.ends_with("-coupled") || name.starts_with("flow_") && name.ends_with("_quick")
 }
 
 fn outcomes() -> String {

@@ -63,8 +63,8 @@ fn between_walls_only_a_kinetic_theory_will_do() {
     let scratch = Scratch::new();
     for (set, code) in [
         ("closures.granular.law=mu-i", "law-mismatch"),
-        ("flow.phi=0.64", "out-of-range"),
-        ("flow.height=0.5 mm", "thinner-than-a-grain"),
+        ("geometry.phi=0.64", "out-of-range"),
+        ("geometry.height=0.5 mm", "thinner-than-a-grain"),
     ] {
         let answer = scratch.bedload(["run", "kinetic_1d_shear", "--set", set]).exits(2);
         assert!(answer.err.contains(code), "{set}: {}", answer.err);

@@ -9,19 +9,19 @@ use crate::support::{REGISTRY, files, project};
 
 /// Laws that no shipped case has: a case, and what it is given instead of its own.
 const OTHERS: &[(&str, &str)] = &[
-    ("sheet_1d_theta06", "closures.lid={ law = \"stress\", stress = 1.4 }"),
-    ("sheet_1d_theta06", "closures.lid={ law = \"colebrook-white\", roughness = 1e-4 }"),
-    ("sheet_1d_theta06", "closures.suspension={ law = \"none\" }"),
-    ("sheet_1d_theta06", "closures.rearrangement={ law = \"free-fall\" }"),
-    ("kinetic_1d_theta06", "closures.granular={ law = \"garzo-dufty\" }"),
-    ("kinetic_1d_theta06", "closures.granular={ law = \"mu-i\" }"),
-    ("kinetic_1d_theta06", "closures.elastic={ law = \"none\" }"),
-    ("kinetic_1d_theta06", "closures.static_friction={ law = \"given\", mu_s = 0.3 }"),
-    ("kinetic_1d_theta06", "closures.dispersion={ law = \"gradient\" }"),
-    ("kinetic_1d_theta06", "closures.mixing_length={ law = \"prandtl\" }"),
-    ("coupled_3d_theta04_quick", "closures.fluctuation={ law = \"none\" }"),
-    ("coupled_3d_theta04_quick", "closures.mixture_viscosity={ law = \"einstein\" }"),
-    ("coupled_2d_exp14_quick", "closures.side_wall={ law = \"blasius\" }"),
+    ("flow_theta06-sheet-flow", "flow.top={ law = \"stress\", stress = 1.4 }"),
+    ("flow_theta06-sheet-flow", "flow.top={ law = \"colebrook-white\", roughness = 1e-4 }"),
+    ("flow_theta06-sheet-flow", "closures.suspension={ law = \"none\" }"),
+    ("flow_theta06-sheet-flow", "closures.rearrangement={ law = \"free-fall\" }"),
+    ("flow_theta06-two-fluid", "closures.granular={ law = \"garzo-dufty\" }"),
+    ("flow_theta06-two-fluid", "closures.granular={ law = \"mu-i\" }"),
+    ("flow_theta06-two-fluid", "closures.elastic={ law = \"none\" }"),
+    ("flow_theta06-two-fluid", "closures.static_friction={ law = \"given\", mu_s = 0.3 }"),
+    ("flow_theta06-two-fluid", "closures.dispersion={ law = \"gradient\" }"),
+    ("flow_theta06-two-fluid", "closures.mixing_length={ law = \"prandtl\" }"),
+    ("flow_theta04_quick", "closures.fluctuation={ law = \"none\" }"),
+    ("flow_theta04_quick", "closures.mixture_viscosity={ law = \"einstein\" }"),
+    ("flume_exp14_quick", "closures.side_wall={ law = \"blasius\" }"),
 ];
 
 #[test]

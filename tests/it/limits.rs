@@ -47,8 +47,8 @@ fn explicit_steps_end_at_their_limits_and_diverge_beyond() {
 fn a_cell_has_a_smallest_size() {
     let scratch = Scratch::new();
     let words = |length: &'static str| ["check", "coupled_3d_limit_cell", "--set", length];
-    assert_eq!(scratch.bedload(words("flow.length=24.1 mm")).code, 0);
-    assert_eq!(scratch.bedload(words("flow.length=23.9 mm")).code, 2);
+    assert_eq!(scratch.bedload(words("cell.length=24.1 mm")).code, 0);
+    assert_eq!(scratch.bedload(words("cell.length=23.9 mm")).code, 2);
 }
 
 #[test]
@@ -104,16 +104,14 @@ fn limits_that_fail_nothing_are_found_too() {
 #[test]
 fn a_limit_that_cannot_be_one_is_refused() {
     let scratch = Scratch::new();
-    for (set, code) in [
-        ("limit.over=bla", "limit-key"),
-        ("limit.over=slope=1:2:3", "limit-key"),
-        ("limit.beyond=holds", "limit-holds"),
-    ] {
+    for (set, code) in
+        [("limit.over=bla", "limit-key"), ("limit.over==1:2:3", "limit-key"), ("limit.beyond=holds", "limit-holds")]
+    {
         let found = scratch.bedload(["check", "sheet_1d_limit_slope_a", "--set", set, "--json"]).exits(2).json();
         assert_eq!(found["error"]["code"], code, "{set} {found}");
     }
     // A limit at which nothing holds is red, whatever it claims to be.
-    let case = bedload::case::shipped::find("kinetic_1d_limit_restitution").unwrap();
+    let case = bedload::case::shipped::find("kinetic_1d_limit_restitution").unwrap().content;
     scratch.write("none.toml", case.replace("grains.restitution=0.1:0.9:5", "flow.nothing=1:2:3"));
     scratch.bedload(["validate", "none.toml"]).exits(3);
 }

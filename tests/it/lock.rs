@@ -15,10 +15,10 @@ const SWEEP: [&str; 5] = ["sweep", "exact_1d_aussillous", "--over", "flow.pressu
 /// Every verb that writes a folder, with the least that it asks for.
 const FOLDERS: [&[&str]; 7] = [
     &["run", "exact_1d_bagnold"],
-    &["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed"],
+    &["compare", "bed_ouriemi-laminar-exact", "exact_1d_ouriemi_mixed"],
     &SWEEP,
     &["chart", "exact_1d_bagnold"],
-    &["converge", "laminar_1d_ouriemi", "--over", "mesh"],
+    &["converge", "bed_ouriemi-laminar", "--over", "mesh"],
     &["stability", "exact_1d_aussillous", "--over", "flow.pressure_gradient=60:90:2"],
     &["calibrate", "exact_1d_bagnold", "--to", "data.csv", "--fit", "mu_2"],
 ];
@@ -90,8 +90,8 @@ fn the_second_process_is_told_who_holds_the_folder() {
 #[test]
 fn studies_hold_their_points_and_comparisons_their_folder() {
     let scratch = Scratch::new();
-    let case = bedload::case::shipped::find("exact_1d_ouriemi").unwrap();
-    scratch.write("long.toml", case.replacen("[model]", "[grid]\ncells = 1000000\n\n[model]", 1));
+    let case = bedload::case::shipped::find("exact_1d_ouriemi_mixed").unwrap().content;
+    scratch.write("long.toml", case.replacen("form = \"mixed\"", "form = \"mixed\"\ngrid.cells = 1000000", 1));
     scratch.bedload(["check", "long.toml"]).exits(0);
     let mut child =
         start(&scratch, &["sweep", "long.toml", "--over", "flow.pressure_gradient=900:1000:20 Pa/m", "--out", "s"]);
@@ -114,11 +114,13 @@ fn studies_hold_their_points_and_comparisons_their_folder() {
     child.wait().unwrap();
     let mut child = start(&scratch, &["compare", "long.toml", "long.toml", "--out", "c"]);
     wait_for(&scratch, "c");
-    refused(&scratch, &["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed", "--out", "c"]);
+    refused(&scratch, &["compare", "bed_ouriemi-laminar-exact", "exact_1d_ouriemi_mixed", "--out", "c"]);
     refused(&scratch, &["run", "exact_1d_bagnold", "--out", "c"]);
     child.kill().unwrap();
     child.wait().unwrap();
-    scratch.bedload(["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed", "--out", "c", "--quiet"]).exits(0);
+    scratch
+        .bedload(["compare", "bed_ouriemi-laminar-exact", "exact_1d_ouriemi_mixed", "--out", "c", "--quiet"])
+        .exits(0);
 }
 
 #[test]
@@ -165,7 +167,7 @@ fn no_folder_is_mixed_from_two() {
         let mut processes = Vec::new();
         for i in 0..4 {
             let set = format!("grid.cells={}", cells(i));
-            let mut arguments = vec!["run", "exact_1d_ouriemi", "--set", &set, "--out", "deep/out", "--json"];
+            let mut arguments = vec!["run", "bed_ouriemi-laminar-exact", "--set", &set, "--out", "deep/out", "--json"];
             if race % 3 > 0 {
                 arguments.push("--force");
             }

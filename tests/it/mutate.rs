@@ -102,31 +102,37 @@ const PIECES: &[&str] = &[
     "\t",
     " ",
     "format",
-    "format = 1\n",
+    "format = 2\n",
+    "scene = \"bed\"\n",
     "[case]\n",
     "[fluid]\n",
     "[grains]\n",
     "[bed]\n",
     "[flow]\n",
+    "[sheet-flow]\n",
+    "[coupled.cell]\n",
     "[model]\n",
     "[grid]\n",
     "[[check]]\n",
-    "[closures.friction]\n",
-    "[closures.drag]\n",
+    "[laminar.closures]\n",
+    "friction = { law = \"coulomb\" }\n",
     "[a.b.c]\n",
-    "[model.kind]\n",
+    "[laminar.closures.friction]\n",
+    "format = 1\n",
+    "12.5 d",
     "title",
     "density",
     "viscosity",
     "diameter",
-    "level",
+    "thickness",
     "phi",
-    "height",
+    "depth",
+    "top",
     "shields",
     "slope",
     "u_star",
-    "kind = \"exact\"\n",
-    "solution = \"bagnold-film\"\n",
+    "scene",
+    "top = \"plane\"\n",
     "law = \"none\"\n",
     "law",
     "cells",
@@ -243,12 +249,12 @@ impl Act {
 /// A shipped case without its checks, which every change would break.
 fn shipped_text() -> impl Strategy<Value = String> {
     let names: Vec<&str> = shipped::names().collect();
-    let boyer = "law = \"boyer\"\nphi_max = 0.62";
+    let boyer = "{ law = \"boyer\", phi_max = 0.62 }";
     (select(names), any::<bool>(), 0..4).prop_map(move |(name, whole, variant)| {
-        let text = shipped::find(name).unwrap_or_default();
-        let text = if whole { text } else { text.split("[[check]]").next().unwrap_or(text) };
+        let text = shipped::find(name).map_or("", |shipped| shipped.content);
+        let text = if whole { text } else { text.split("\n[[").next().unwrap_or(text) };
         match variant {
-            0 => text.replace("law = \"einstein\"", boyer),
+            0 => text.replace("\"einstein\"", boyer),
             1 => text
                 .replace("pressure_gradient = \"1471.5 Pa/m\"", "shields = 0.3")
                 .replace("mean_velocity = \"1 m/s\"", "pressure_gradient = 50"),
@@ -259,9 +265,11 @@ fn shipped_text() -> impl Strategy<Value = String> {
 
 fn override_() -> impl Strategy<Value = String> {
     let keys = &[
-        "bed.level",
+        "bed.thickness",
         "bed.phi",
-        "flow.height",
+        "flow.depth",
+        "flow.top",
+        "scene",
         "flow.shields",
         "grid.cells",
         "check.0.at",

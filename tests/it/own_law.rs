@@ -12,7 +12,7 @@ use example::{Power, reference, registry};
 
 #[test]
 fn with_the_exponent_of_the_published_law_it_gives_the_published_flow() {
-    let (_, published) = REGISTRY.load("sheet_1d_theta06", &[]).unwrap();
+    let (_, published) = REGISTRY.load("flow_theta06-sheet-flow", &[]).unwrap();
     let (own, published) = (run(&reference(1.0).unwrap()).unwrap(), run(&published).unwrap());
     for quantity in [&q::TRANSPORT_RATE, &q::SHIELDS, &q::PHI_INTERFACE] {
         let [a, b] = [&own, &published].map(|outcome| outcome.results.get(quantity.name).unwrap());
@@ -47,19 +47,22 @@ fn it_has_the_texts_and_the_diagnostics_of_any_other() {
     assert!(description.equations.contains("I_0 = 0.69000, n = 0.50000"), "{}", description.equations);
     // Its model takes it alone: mu(I) is a law of another model then.
     let refused = |set: &str| {
-        let error = registry().load("sheet_1d_theta06", &[format!("closures.friction={set}")]).unwrap_err();
+        let error = registry().load("flow_theta06-sheet-flow", &[format!("closures.friction={set}")]).unwrap_err();
         let codes = error.violations.iter().map(|v| format!("{} {}", v.fault.code(), v.path));
         codes.collect::<Vec<_>>().join(", ")
     };
     let friction = "mu_s = 0.35, mu_2 = 0.97, i_0 = 0.69";
-    assert_eq!(refused(&format!("{{ law = \"mu-i\", {friction} }}")), "law-mismatch closures.friction.law");
-    assert_eq!(refused(&format!("{{ law = \"power\", {friction}, n = 20 }}")), "out-of-range closures.friction.n");
+    assert_eq!(refused(&format!("{{ law = \"mu-i\", {friction} }}")), "law-mismatch sheet-flow.closures.friction.law");
+    assert_eq!(
+        refused(&format!("{{ law = \"power\", {friction}, n = 20 }}")),
+        "out-of-range sheet-flow.closures.friction.n"
+    );
     assert_eq!(
         refused("{ law = \"power\", mu_s = 0.7, mu_2 = 0.6, i_0 = 0.69, n = 1 }"),
-        "friction-falls closures.friction.mu_2"
+        "friction-falls sheet-flow.closures.friction.mu_2"
     );
     let (case, _) = registry()
-        .load("sheet_1d_theta06", &[format!("closures.friction={{ law = \"power\", {friction}, n = 1 }}")])
+        .load("flow_theta06-sheet-flow", &[format!("closures.friction={{ law = \"power\", {friction}, n = 1 }}")])
         .unwrap();
     let again = registry().parse("again", "again.toml", case.resolved(), &[]).unwrap().0;
     assert_eq!(again.resolved(), case.resolved());

@@ -32,7 +32,7 @@ fn its_cases_have_the_diagnostics_of_any_other() {
     let codes: Vec<&str> = error.violations.iter().map(|v| v.fault.code()).collect();
     assert_eq!(codes, ["out-of-range", "unknown-key"], "{error}");
     // The error says so itself, without a terminal.
-    assert!(error.to_string().contains("flow.sine"), "{error}");
+    assert!(error.to_string().contains("geometry.sine"), "{error}");
     let (case, problem) = registry.parse("film", "film.toml", example::CASE.into(), &[]).unwrap();
     assert_eq!((problem.kind, problem.cells()), ("thin-film", 200));
     let again = Case::parse(registry.kinds(), "film", "film.toml", case.resolved(), &[]).unwrap();
@@ -50,7 +50,7 @@ fn a_fault_of_its_own_is_diagnosed_as_any_other() {
     let coarse = ["closures.viscosity.n=0.05".to_owned(), "grid.cells=20".to_owned()];
     let error = example::registry().parse("film", "film.toml", example::CASE.into(), &coarse).unwrap_err();
     let report = &error.reports()[0];
-    assert_eq!((report.code.as_str(), report.path.as_deref()), ("too-coarse", Some("grid.cells")));
+    assert_eq!((report.code.as_str(), report.path.as_deref()), ("too-coarse", Some("thin-film.grid.cells")));
     assert_eq!(report.allowed.as_deref(), Some("at least 40"));
     assert!(report.hint.as_ref().is_some_and(|hint| hint.starts_with("the smaller n is")), "{report:?}");
     let shown = error.render(false);
@@ -70,7 +70,7 @@ fn a_failure_of_its_own_reaches_the_summary_and_has_its_class() {
     let mut settings = Settings::new(&registry, "own_model", &example::Nobody);
     (settings.out, settings.threads) = (Some(scratch.path("o")), 1);
     let case = scratch.path("film.toml").display().to_string();
-    let (plan, assess) = sweep::plan(&case, &[], &["flow.sine=0.05,0.5".into()]).unwrap();
+    let (plan, assess) = sweep::plan(&case, &[], &["geometry.sine=0.05,0.5".into()]).unwrap();
     let swept = conduct(&plan, &settings, Box::new(|_, _| (Vec::new(), assess))).unwrap();
     let [good, fast] = &swept.rows[..] else { panic!("{:?}", swept.rows) };
     assert_eq!((good.class, fast.class), (None, Some(Class::Unphysical)));
@@ -78,8 +78,9 @@ fn a_failure_of_its_own_reaches_the_summary_and_has_its_class() {
     let error = &scratch.summary(&format!("o/{folder}"))["error"];
     assert_eq!(error["code"], "compressible");
     assert!(error["message"].as_str().unwrap().starts_with("the film would flow at 80"), "{error}");
-    assert_eq!(error["hint"], "a thinner film (flow.height), or a smaller flow.sine");
-    let (_, problem) = registry.parse("film", "film.toml", example::CASE.into(), &["flow.sine=0.5".into()]).unwrap();
+    assert_eq!(error["hint"], "a thinner film (geometry.height), or a smaller geometry.sine");
+    let (_, problem) =
+        registry.parse("film", "film.toml", example::CASE.into(), &["geometry.sine=0.5".into()]).unwrap();
     let Failure { error, .. } = bedload::prelude::Simulation::new(&problem).run().unwrap_err();
     assert!(error.downcast_ref::<example::Compressible>().is_some_and(|error| error.velocity_m_s > 500.0), "{error:?}");
     assert!(error.downcast_ref::<bedload::result::NumericalError>().is_none());

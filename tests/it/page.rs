@@ -163,8 +163,8 @@ fn pages_of_studies_and_comparisons_answer_too() {
     let scratch = Scratch::new();
     let sweep = ["sweep", "exact_1d_aussillous", "--over", "flow.pressure_gradient=60:180:5 Pa/m", "--out", "sweep"];
     scratch.bedload(sweep).exits(0);
-    scratch.bedload(["chart", "laminar_1d_ouriemi", "exact_1d_ouriemi", "--out", "chart"]).exits(0);
-    scratch.bedload(["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed", "--out", "compare"]).exits(0);
+    scratch.bedload(["chart", "bed_ouriemi-laminar", "bed_ouriemi-laminar-exact", "--out", "chart"]).exits(0);
+    scratch.bedload(["compare", "bed_ouriemi-laminar-exact", "exact_1d_ouriemi_mixed", "--out", "compare"]).exits(0);
     for folder in ["sweep", "chart", "compare"] {
         let file = format!("{folder}/report.html");
         for answer in examine(&browser, &scratch, &file) {

@@ -89,9 +89,10 @@ fn a_link_to_nowhere_is_not_followed() {
 fn names_of_files_do_not_command_the_terminal() {
     let scratch = Scratch::new();
     let name = "\u{1b}[31mred\u{9b}2J.toml";
-    let bad = bedload::case::shipped::find("exact_1d_bagnold").unwrap().replace("mu-i", "mu-j");
+    let bad = bedload::case::shipped::find("exact_1d_bagnold").unwrap().content.replace("mu-i", "mu-j");
     scratch.write(name, bad);
-    let titled = bedload::case::shipped::find("exact_1d_bagnold").unwrap().replace("Bagnold film", "\\u001b[2J\\u009b");
+    let titled =
+        bedload::case::shipped::find("exact_1d_bagnold").unwrap().content.replace("Bagnold film", "\\u001b[2J\\u009b");
     scratch.write("titled.toml", titled);
     for arguments in [
         vec!["check", name],

@@ -13,15 +13,15 @@ const CASE: &str = "exact_1d_bagnold";
 /// Every verb that writes a folder, with the least that it asks for.
 const FOLDERS: [&[&str]; 7] = [
     &["run", CASE],
-    &["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed"],
+    &["compare", "bed_ouriemi-laminar-exact", "exact_1d_ouriemi_mixed"],
     &["sweep", "exact_1d_aussillous", "--over", "flow.pressure_gradient=60,90 Pa/m"],
     &["chart", CASE],
-    &["converge", "laminar_1d_ouriemi", "--over", "mesh"],
+    &["converge", "bed_ouriemi-laminar", "--over", "mesh"],
     &["stability", "exact_1d_aussillous", "--over", "flow.pressure_gradient=60:90:2"],
     &["calibrate", CASE, "--to", "data.csv", "--fit", "mu_2"],
 ];
 /// Takes long enough to be met on its way.
-const LONG: [&str; 5] = ["run", "exact_1d_ouriemi", "--set", "grid.cells=1000000", "--quiet"];
+const LONG: [&str; 5] = ["run", "bed_ouriemi-laminar-exact", "--set", "grid.cells=1000000", "--quiet"];
 
 /// A folder with what the verbs need, and with files of a person in `precious`.
 fn scratch() -> Scratch {
@@ -80,7 +80,7 @@ fn a_case_that_is_called_like_a_way_up_stays_below_runs() {
     let scratch = Scratch::new();
     fs::create_dir_all(scratch.path("cases")).unwrap();
     fs::create_dir_all(scratch.path("work/empty")).unwrap();
-    let text = bedload::case::shipped::find(CASE).unwrap();
+    let text = bedload::case::shipped::find(CASE).unwrap().content;
     for name in ["...toml", "..toml"] {
         scratch.write(&format!("cases/{name}"), text);
         for folder in ["work", "work/empty"] {
@@ -111,7 +111,7 @@ fn wait_for(scratch: &Scratch, file: &str) {
 #[test]
 fn what_a_person_puts_into_a_folder_on_its_way_stays() {
     let scratch = Scratch::new();
-    scratch.bedload(["run", "exact_1d_ouriemi", "--out", "out", "--png", "--quiet"]).exits(0);
+    scratch.bedload(["run", "bed_ouriemi-laminar-exact", "--out", "out", "--png", "--quiet"]).exits(0);
     let mut child = start(&scratch, &[&LONG[..], &["--out", "out", "--force"]].concat());
     wait_for(&scratch, &format!(".out.new-{}/summary.json", child.id()));
     scratch.write("out/notes.txt", "mine");
@@ -151,10 +151,10 @@ fn what_a_person_puts_into_a_folder_on_its_way_stays() {
 #[test]
 fn frames_do_not_follow_a_link() {
     let scratch = scratch();
-    scratch.bedload(["run", "exact_1d_ouriemi", "--out", "out", "--quiet"]).exits(0);
+    scratch.bedload(["run", "bed_ouriemi-laminar-exact", "--out", "out", "--quiet"]).exits(0);
     symlink("../precious/figures", scratch.path("out/figures")).unwrap();
     refused(&scratch, &["report", "out", "--png"], "not-a-folder");
-    refused(&scratch, &["run", "exact_1d_ouriemi", "--out", "out", "--force"], "foreign-folder");
+    refused(&scratch, &["run", "bed_ouriemi-laminar-exact", "--out", "out", "--force"], "foreign-folder");
 }
 
 #[test]

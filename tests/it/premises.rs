@@ -8,15 +8,17 @@ use crate::support::{Scratch, load, parse, run, solve};
 
 /// A laminar bed in water, as the closed form and as the solver take it.
 const IN_WATER: &str = r#"
-format = 1
+format = 2
+scene = "bed"
 case.title = "A laminar bed far beyond laminar flow"
 fluid = { density = "1070 kg/m3", viscosity = "1e-3 Pa s" }
 grains = { diameter = "2 mm", density = "1190 kg/m3" }
-bed = { level = "32.24 mm", phi = 0.6 }
-flow = { height = "65 mm", pressure_gradient = "100 Pa/m" }
-model = { MODEL form = "mixed" }
+bed = { thickness = "32.24 mm", phi = 0.6 }
+flow = { depth = "32.76 mm", top = "plane", pressure_gradient = "100 Pa/m" }
+[MODEL]
+form = "mixed"
 closures.friction = { law = "coulomb", mu_s = 0.32 }
-closures.mixture_viscosity.law = "clear"
+closures.mixture_viscosity = "clear"
 "#;
 
 fn solved(case: Result<Checked, CaseError>) -> Outcome {
@@ -37,13 +39,8 @@ fn shipped(name: &str, sets: &[&str]) -> Outcome {
 
 #[test]
 fn a_laminar_bed_in_water_is_flagged_by_every_model_of_it() {
-    let models =
-        ["kind = \"exact\", solution = \"ouriemi\",", "kind = \"laminar\",", "kind = \"section\", solution = \"bed\","];
-    for model in models {
-        let mut text = IN_WATER.replace("MODEL", model);
-        if model.contains("section") {
-            text = text.replace("flow = {", "flow = { shape = \"planes\",");
-        }
+    for model in ["laminar-exact", "laminar", "duct-bed"] {
+        let text = IN_WATER.replace("MODEL", model);
         let outcome = solved(parse("case", &text));
         let found = flagged(&outcome).unwrap_or_else(|| panic!("{model} is not flagged"));
         // The mean velocity over the gap times the gap over the viscosity, from the profile.
@@ -84,7 +81,7 @@ fn other_laminar_flows_are_flagged_beyond_the_limit_alone() {
         assert!((flagged(&at(eta(2001.0))).unwrap() - 2001.0).abs() < 0.1, "{name}");
     }
     // Between side walls half as far apart as bottom and lid, on their distance.
-    let narrow = shipped("section_2d_square", &["grid.cells=8", "fluid.viscosity=1e-4", "flow.width=0.5"]);
+    let narrow = shipped("section_2d_square", &["grid.cells=8", "fluid.viscosity=1e-4", "flow.section.width=0.5"]);
     let (reynolds, reported) = (flagged(&narrow).unwrap(), narrow.results.get(q::REYNOLDS.name).unwrap());
     assert!((reported / reynolds - 2.0).abs() < 2e-3, "{reported} {reynolds}");
 }
@@ -92,12 +89,12 @@ fn other_laminar_flows_are_flagged_beyond_the_limit_alone() {
 #[test]
 fn a_person_reads_of_it() {
     let scratch = Scratch::new();
-    let case = IN_WATER.replace("MODEL", "kind = \"exact\", solution = \"ouriemi\",");
+    let case = IN_WATER.replace("MODEL", "laminar-exact");
     scratch.write("water.toml", case);
     let said = scratch.bedload(["run", "water.toml"]).exits(0).out;
     assert!(said.contains("outside range    flow/laminar: Re = ") && said.contains("(Re <= 2000)"), "{said}");
     assert!(scratch.read("runs/water/report.html").contains("flow/laminar"));
-    let slow = scratch.bedload(["run", "exact_1d_ouriemi"]).exits(0).out;
+    let slow = scratch.bedload(["run", "bed_ouriemi-laminar-exact"]).exits(0).out;
     assert!(!slow.contains("flow/laminar"), "{slow}");
 }
 
@@ -111,12 +108,11 @@ fn coarser_sand_does_not_keep_the_settling_velocity_of_finer_sand() {
     };
     let (old, flagged) = coarser(&[]);
     assert!((old / 79.0 - 1.0).abs() < 0.01 && flagged, "{old}");
-    let (derived, flagged) = coarser(&["closures.suspension.settling_velocity="]);
+    let (derived, flagged) = coarser(&["grains.settling_velocity="]);
     assert!((derived / 22.6 - 1.0).abs() < 0.01 && !flagged, "{derived}");
     // The coarser the sand, the less is carried at one Shields number.
     let rate = |d: &str| {
-        let set =
-            [format!("grains.diameter={d}"), "closures.suspension.settling_velocity=".into(), "bed.level=24 mm".into()];
+        let set = [format!("grains.diameter={d}"), "grains.settling_velocity=".into(), "bed.thickness=24 mm".into()];
         solve("sheet_1d_type_b", &set).unwrap().results.get("transport_rate_dimensionless").unwrap()
     };
     let rates = ["0.2 mm", "0.25 mm", "0.35 mm", "0.5 mm"].map(rate);

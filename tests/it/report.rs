@@ -28,7 +28,7 @@ fn a_redrawn_report_is_the_same_file() {
 #[test]
 fn a_report_draws_figures_on_demand_from_the_tables_alone() {
     let scratch = Scratch::new();
-    scratch.bedload(["run", "exact_1d_ouriemi", "--out", "out"]).exits(0);
+    scratch.bedload(["run", "bed_ouriemi-laminar-exact", "--out", "out"]).exits(0);
     fs::rename(scratch.path("out"), scratch.path("moved")).unwrap();
     let json = scratch.bedload(["report", "moved", "--png", "--json"]).exits(0).json();
     let files: Vec<&str> = json["files"].as_array().unwrap().iter().map(|f| f.as_str().unwrap()).collect();
@@ -37,7 +37,7 @@ fn a_report_draws_figures_on_demand_from_the_tables_alone() {
         assert!(fs::read(scratch.path(file)).unwrap().starts_with(b"\x89PNG"), "{file}");
     }
     // With figures it is still a run of ours, which the same command replaces.
-    scratch.bedload(["run", "exact_1d_ouriemi", "--out", "moved"]).exits(0);
+    scratch.bedload(["run", "bed_ouriemi-laminar-exact", "--out", "moved"]).exits(0);
 }
 
 #[test]
@@ -69,9 +69,9 @@ fn a_folder_that_is_no_run_is_refused() {
 
 /// The film with one more check row.
 fn film_with(kind: &str, quantity: &str, expect: &str) -> String {
-    let case = shipped::find("exact_1d_bagnold").unwrap();
+    let case = shipped::find("exact_1d_bagnold").unwrap().content;
     format!(
-        "{case}\n[[check]]\nquantity = \"{quantity}\"\nexpect = {expect}\ntolerance = \"1 %\"\nkind = \"{kind}\"\nsource = \"a | b\"\n"
+        "{case}\n[[bagnold-film.check]]\nquantity = \"{quantity}\"\nexpect = {expect}\ntolerance = \"1 %\"\nkind = \"{kind}\"\nsource = \"a | b\"\n"
     )
 }
 

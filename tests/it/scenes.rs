@@ -1,59 +1,18 @@
-//! Format 2: a flow, and the tables of the models that solve it. What a case of format 1 states, its conversion states.
+//! A flow, and the tables of the models that solve it. What a case of format 1 stated, its migration states.
 
 use std::fs;
 
-use bedload::case::{Case, CaseError, shipped};
+use bedload::case::{Case, CaseError};
 use bedload::model::Problem;
 
 use bedload::scene::Scene;
-use rayon::prelude::*;
 use serde_json::Value;
 
-use super::goldens::points;
-use crate::support::{REGISTRY, Scratch, project, run};
-
-fn converted(case: &Case) -> String {
-    REGISTRY.converted(case).unwrap()
-}
+use crate::support::{REGISTRY, Scratch, files, load, project, run};
 
 fn parsed(name: &str, text: &str, set: &[String]) -> (Case, Problem) {
     let read = REGISTRY.parse(name, "scene.toml", text.to_owned(), set);
     read.unwrap_or_else(|error| panic!("{name}: {}\n{text}", error.render(false)))
-}
-
-#[test]
-fn the_conversion_of_a_case_is_the_same_problem_to_the_bit() {
-    for name in shipped::names() {
-        let (case, problem) = REGISTRY.load(name, &[]).unwrap();
-        let text = converted(&case);
-        let (second, same) = parsed(name, &text, &[]);
-        assert_eq!(format!("{:?}", problem.solver()), format!("{:?}", same.solver()), "{name}");
-        assert_eq!((problem.kind, problem.stochastic), (same.kind, same.stochastic), "{name}");
-        assert_eq!(problem.scene, same.scene, "{name}");
-        assert_eq!((case.checks(), case.limit()), (second.checks(), second.limit()), "{name}");
-        // The resolved case is the conversion, and so is the resolved case of that.
-        assert_eq!(second.resolved(), text, "{name}");
-        assert_eq!(converted(&second), text, "{name}");
-    }
-}
-
-/// The same of every point that the studies make of a case.
-#[test]
-fn the_conversion_of_a_point_of_a_study_is_the_same_problem_to_the_bit() {
-    let moved: Vec<String> = shipped::names()
-        .par_bridge()
-        .flat_map_iter(|name| {
-            points(name).into_iter().filter_map(move |point| {
-                let case = point.case.as_deref().unwrap_or(name);
-                let (first, problem) = REGISTRY.load(case, &point.overrides).ok()?;
-                let same = REGISTRY.parse("scene", "scene.toml", converted(&first), &[]).ok().map(|(_, same)| same);
-                let text = |problem: &Problem| format!("{:?}", problem.solver());
-                let moved = same.is_none_or(|same| text(&problem) != text(&same));
-                moved.then(|| format!("{case} with {:?}", point.overrides))
-            })
-        })
-        .collect();
-    assert!(moved.is_empty(), "{}", moved.join("\n"));
 }
 
 /// One flow with the tables of three models.
@@ -91,7 +50,7 @@ fn several_models_share_a_flow() {
         let (_, problem) = of(model, &flow(), &[]).unwrap();
         run(&problem).unwrap().results.get("transport_rate_dimensionless").unwrap()
     };
-    // Those of sheet_1d_theta06 (w_s = 0.54 m/s there) and kinetic_1d_theta06, whose flow this is.
+    // Those of flow_theta06-sheet-flow (w_s = 0.54 m/s there) and flow_theta06-two-fluid, whose flow this is.
     assert!((rate("sheet-flow") / 2.94904 - 1.0).abs() < 5e-3, "{}", rate("sheet-flow"));
     assert!((rate("two-fluid") / 2.5765 - 1.0).abs() < 5e-3, "{}", rate("two-fluid"));
 }
@@ -157,17 +116,15 @@ fn what_is_wrong_with_a_flow_is_said_at_its_place() {
         ("oscillation = { amplitude = \"10 Pa/m\", period = \"5 s\" }", "sheet-flow"),
         ("pressure_gradient = \"10 Pa/m\"", "two-fluid"),
         ("top = \"plane\"", "two-fluid"),
-        ("u_star = \"0.1 m/s\"", "coupled"),
     ] {
         let name = key.split(' ').next().unwrap();
         let found = wrong(of(model, &changed("slope = 0.05", &format!("slope = 0.05\n{key}")), &[]));
         let hit = |(code, path, _): &(String, String, String)| code == "not-used" && *path == format!("flow.{name}");
         assert!(found.iter().any(hit), "{key} in {model}: {found:?}");
     }
-    let without = flow().replace("restitution = 0.7\n", "");
-    assert_eq!(sheet(&without), [], "sheet flow does not need it");
+    let without = flow().replace("thickness = \"12.5 d\"\n", "");
     let found = wrong(of("two-fluid", &without, &[]));
-    assert!(found.len() == 1 && found[0].1 == "grains.restitution", "{found:?}");
+    assert!(found.len() == 1 && found[0].1 == "bed.thickness" && found[0].2.contains("[bed]"), "{found:?}");
     let found = wrong(REGISTRY.parse("flow", "flow.toml", flow(), &[]));
     assert!(found.len() == 1 && found[0].0 == "which-model", "{found:?}");
     let found = wrong(of("sheet-flows", &flow(), &[]));
@@ -180,7 +137,9 @@ fn a_flow_is_run_compared_and_migrated_on_the_command_line() {
     scratch.write("flow.toml", flow());
     let out = scratch.bedload(["check", "flow.toml", "--model", "coupled"]).exits(0).out;
     assert!(out.contains("valid, coupled, 1448 levels"), "{out}");
-    scratch.bedload(["check", "flow.toml"]).exits(2);
+    let every = scratch.bedload(["check", "flow.toml"]).exits(0).out;
+    assert_eq!(every.lines().filter(|line| line.contains("--model")).count(), 3, "{every}");
+    scratch.bedload(["run", "flow.toml"]).exits(2);
     scratch.bedload(["run", "flow.toml", "--model", "sheet-flow", "--quiet"]).exits(0);
     assert_eq!(scratch.names("runs"), ["flow-sheet-flow"]);
     let arguments = ["compare", "flow.toml", "--model", "sheet-flow", "--model", "two-fluid", "--json"];
@@ -191,13 +150,106 @@ fn a_flow_is_run_compared_and_migrated_on_the_command_line() {
         let table = row["path"].as_str().unwrap().split('.').next().unwrap();
         assert!(!["fluid", "grains", "bed", "flow"].contains(&table), "the flow is the same: {row}");
     }
-    scratch.bedload(["migrate", "sheet_1d_theta06", "new.toml"]).exits(0);
-    scratch.bedload(["migrate", "sheet_1d_theta06", "new.toml"]).exits(2);
-    assert!(scratch.read("new.toml").starts_with("format = 2\nscene = \"bed\"\n"));
-    let rate = |case: &str| {
-        let found: Value =
-            scratch.bedload(["run", case, "--json", "--out", case.trim_end_matches(".toml")]).exits(0).json();
-        found["results"]["transport_rate_m2_s"]["value"].as_f64().unwrap()
+}
+
+#[test]
+fn a_migrated_case_states_the_problem_that_it_stated() {
+    let scratch = Scratch::new();
+    for old in files(&project("tests/format1"), "toml") {
+        let name = old.file_stem().unwrap().to_str().unwrap();
+        let new = format!("{name}.toml");
+        scratch.bedload(["migrate", old.to_str().unwrap(), &new]).exits(0);
+        scratch.bedload(["migrate", old.to_str().unwrap(), &new]).exits(2);
+        let text = scratch.read(&new);
+        let (_, problem) = parsed(name, &text, &[]);
+        // The shipped case of this name was rewritten: both are the problem that the goldens hold.
+        let (_, shipped) = load(name, &[""; 0]).unwrap();
+        assert_eq!(format!("{:?}", problem.solver()), format!("{:?}", shipped.solver()), "{name}");
+        // Every comment is still there.
+        let comments = |text: &str| text.lines().filter(|line| line.contains("# ")).count();
+        assert!(comments(&text) >= comments(&fs::read_to_string(&old).unwrap()), "{name}: {text}");
+    }
+    scratch.bedload(["migrate", "nowhere.toml", "-"]).exits(2);
+    let err = scratch.bedload(["migrate", "sheet_1d_sumer91.toml", "-"]).exits(2).err;
+    assert!(err.contains("of format 2 already"), "{err}");
+}
+
+/// Twelve lines, and no model.
+const ALONE: &str = r#"
+format = 2
+scene = "bed"
+case.title = "Medium sand under a steep stream"
+fluid = { density = "1000 kg/m3", viscosity = "1e-3 Pa s" }
+grains = { diameter = "2 mm", density = "2650 kg/m3" }
+bed.thickness = "40 mm"
+flow.depth = "60 mm"
+flow.slope = "1.5 deg"
+"#;
+
+#[test]
+fn a_scene_alone_is_checked_explained_advised_and_compared() {
+    let scratch = Scratch::new();
+    scratch.write("sand.toml", ALONE);
+    let valid = scratch.bedload(["check", "sand.toml"]).exits(0).out;
+    let taken = |model: &str| valid.lines().any(|line| line.contains(&format!("--model {model}")));
+    assert!(["sheet-flow", "two-fluid", "coupled"].iter().all(|model| taken(model)), "{valid}");
+    assert!(!taken("laminar") && valid.contains("does not solve a flow whose top is free-surface"), "{valid}");
+    let explained = scratch.bedload(["explain", "sand.toml"]).exits(0).out;
+    for piece in ["shields_drive", "settling_velocity_m_s", "submergence", "--model coupled", "laminar"] {
+        assert!(explained.contains(piece), "{piece}: {explained}");
+    }
+    // What the file leaves to the model is shown with its value.
+    let sheet = scratch.bedload(["explain", "sand.toml", "--model", "sheet-flow"]).exits(0).out;
+    for piece in ["Not in the file, and taken as", "closures.friction.mu_s", "0.35", "grid.cells", "300"] {
+        assert!(sheet.contains(piece), "{piece}: {sheet}");
+    }
+    let refused = scratch.bedload(["run", "sand.toml"]).exits(2).err;
+    assert!(refused.contains("which-model") && refused.contains("a scene alone"), "{refused}");
+    let two = scratch.bedload(["run", "sand.toml", "--model", "sheet-flow", "--model", "two-fluid", "--json"]);
+    let two = two.exits(0).json();
+    assert_eq!(two.as_array().map(Vec::len), Some(2), "{two}");
+    assert_eq!(scratch.names("runs"), ["sand-sheet-flow", "sand-two-fluid"]);
+    let compared = ["compare", "sand.toml", "--model", "sheet-flow", "--model", "two-fluid", "--json"];
+    let compared = scratch.bedload(compared).exits(0).json();
+    assert_eq!(compared["subjects"].as_array().map(Vec::len), Some(2));
+    let advised = scratch.bedload(["advise", "sand.toml", "--tolerance", "0.3", "--write", "least.toml"]).exits(0).out;
+    assert!(advised.contains("Shields number"), "{advised}");
+    scratch.bedload(["check", "least.toml"]).exits(0);
+    let least = scratch.read("least.toml");
+    assert!(least.contains("thickness = 0.04") && least.contains("depth = 0.06"), "the scene is the same: {least}");
+}
+
+#[test]
+fn the_stiffness_of_grains_follows_the_weight_on_them() {
+    let contact = |set: &[&str]| format!("{:?}", of("coupled", ALONE, set).unwrap().1.solver());
+    // 40 mm of a packing of 0.6 under water on grains of 2 mm: 1e4 p d.
+    let k_n = 1e4 * 1650.0 * 9.81 * 0.6 * 40e-3 * 2e-3;
+    let found = contact(&[]);
+    let of_name = |text: &str, name: &str| -> f64 {
+        text.split(&format!("{name}: ")).nth(1).unwrap().split([',', ' ', '}']).next().unwrap().parse().unwrap()
     };
-    assert_eq!(rate("new.toml"), rate("sheet_1d_theta06"));
+    assert!((of_name(&found, "k_n") / k_n - 1.0).abs() < 1e-12, "{found}");
+    assert_eq!(of_name(&found, "k_n"), of_name(&found, "k_s"));
+    let given = contact(&["closures.contact.k_n=1e3", "closures.contact.k_s_over_k_n=0.5"]);
+    assert_eq!((of_name(&given, "k_n"), of_name(&given, "k_s")), (1e3, 500.0));
+}
+
+#[test]
+fn a_run_of_format_1_is_named_as_such() {
+    let scratch = Scratch::new();
+    scratch.bedload(["run", "exact_1d_aussillous", "--out", "old", "--quiet"]).exits(0);
+    let summary = scratch.summary("old");
+    let of = |key: &str| summary["provenance"][key].as_str().unwrap().to_owned();
+    assert_eq!((of("scene_sha256").len(), of("model_sha256").len()), (64, 64));
+    // The scene of another model of the flow has the same hash.
+    scratch.bedload(["run", "laminar_1d_aussillous", "--out", "other", "--quiet"]).exits(0);
+    let other = scratch.summary("other");
+    assert_eq!(other["provenance"]["scene_sha256"], of("scene_sha256").as_str());
+    assert_ne!(other["provenance"]["model_sha256"], of("model_sha256").as_str());
+    scratch.write("old/case.toml", "format = 1\n");
+    for more in ["--resume", "--quiet"] {
+        let refused = scratch.bedload(["run", "exact_1d_aussillous", "--out", "old", more]).exits(2).err;
+        assert!(refused.contains("a run of a case of format 1"), "{refused}");
+    }
+    scratch.bedload(["run", "exact_1d_aussillous", "--out", "old", "--force", "--quiet"]).exits(0);
 }

@@ -52,7 +52,7 @@ fn dilatancy_moves_the_thickness_by_an_eighth_and_the_rate_hardly() {
 
 #[test]
 fn karman_moves_the_rate_by_some_per_cent() {
-    let duct = ["flow.shields=", "closures.lid={ law = \"colebrook-white\" }"];
+    let duct = ["flow.shields=", "flow.top={ law = \"colebrook-white\" }"];
     let at_slope = RUNS.map(|case| change(case, &duct, "closures.mixing_length.kappa=0.41").0);
     // The paper: 8, 2.5 and 2.3 %; the first is not reproduced.
     assert!(at_slope.iter().all(|x| (1.5..4.0).contains(x)), "{at_slope:?}");
@@ -112,7 +112,7 @@ fn smooth_factor(reynolds: f64) -> f64 {
 #[test]
 fn a_smooth_lid_takes_what_colebrook_and_white_say() {
     for case in RUNS {
-        let settings = ["flow.shields=", "closures.lid={ law = \"colebrook-white\" }"].map(str::to_owned);
+        let settings = ["flow.shields=", "flow.top={ law = \"colebrook-white\" }"].map(str::to_owned);
         let outcome = solve(case, &settings);
         let profile = outcome.profile.as_ref().unwrap();
         let (z, u) = (profile.axis(), profile.get(&q::U_MIXTURE).unwrap());
@@ -132,8 +132,9 @@ fn a_smooth_lid_takes_what_colebrook_and_white_say() {
 #[test]
 fn the_bottom_carries_the_weight_of_the_grains_normal_to_it() {
     for (case, slope, weight) in [("sheet_1d_type_a", 0.016, 140.0 * 9.81), ("sheet_1d_type_b", 0.05, 1600.0 * 9.81)] {
-        let drive = ["flow.shields=".to_owned(), format!("flow.slope={slope}")];
-        let room = ["bed.level=0.15", if slope < 0.02 { "flow.height=0.19" } else { "flow.height=0.16" }];
+        let drive =
+            ["flow.shields=".to_owned(), format!("flow.slope={slope}"), "flow.slope_definition=sine".to_owned()];
+        let room = ["bed.thickness=0.15", if slope < 0.02 { "flow.depth=0.04" } else { "flow.depth=0.01" }];
         let settings: Vec<String> = drive.into_iter().chain(room.map(str::to_owned)).collect();
         let outcome = solve(case, &settings);
         let profile = outcome.profile.as_ref().unwrap();

@@ -14,7 +14,7 @@ const SHORT: &[&str] = &["sweep", "exact_1d_aussillous", "--over", "flow.pressur
 /// Takes long enough to be interrupted.
 const LONG: &[&str] = &[
     "sweep",
-    "exact_1d_ouriemi",
+    "bed_ouriemi-laminar-exact",
     "--set",
     "grid.cells=20000",
     "--over",
@@ -59,7 +59,7 @@ fn a_study_replaces_itself_and_nothing_else() {
     assert_eq!(code(&scratch, &[other]), "other-study");
     assert_eq!(code(&scratch, &[other, &["--resume"]]), "other-study");
     assert_eq!(code(&scratch, &[&["run", "exact_1d_bagnold", "--out", "s", "--force"]]), "other-kind");
-    let compare = ["compare", "exact_1d_ouriemi", "exact_1d_ouriemi_mixed", "--out", "s", "--force"];
+    let compare = ["compare", "bed_ouriemi-laminar-exact", "exact_1d_ouriemi_mixed", "--out", "s", "--force"];
     assert_eq!(code(&scratch, &[&compare]), "other-kind");
     assert!(scratch.snapshot("s") == before, "a refused study touched the folder");
     scratch.bedload([other, &["--force"][..]].concat()).exits(0);

@@ -107,7 +107,7 @@ fn only_where_nothing_is_left_is_it_an_error() {
     assert_eq!(points(&failed).len(), 2);
     let wrong = sweep(&scratch, 2, &["bed.phi=0.9,0.95"], &["--out", "c"]);
     assert_eq!(wrong["error"]["path"], "bed.phi");
-    for over in ["bed.phi", "phi=1,2", "bed.phi=1:2", "bed.phi=1:2:3:4:5", "bed.phi=0.1:0.2:1e9"] {
+    for over in ["bed.phi", "=1,2", "bed.phi=1:2", "bed.phi=1:2:3:4:5", "bed.phi=0.1:0.2:1e9"] {
         assert_eq!(sweep(&scratch, 2, &[over], &["--out", "c"])["error"]["code"], "bad-over", "{over}");
     }
     assert_eq!(sweep(&scratch, 2, &["bed.phi=0.5,0.6", "bed.phi=0.4"], &[])["error"]["code"], "bad-over");

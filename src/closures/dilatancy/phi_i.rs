@@ -39,6 +39,13 @@ pub struct PhiI {
     pub b: f64,
 }
 
+/// Of spheres: Maurin et al. (2016), J. Fluid Mech. 804, 490-512.
+impl Default for PhiI {
+    fn default() -> Self {
+        Self { phi_max: 0.61, b: 0.31 }
+    }
+}
+
 impl PhiI {
     /// Solid fraction at the inertial number `i`.
     #[must_use]

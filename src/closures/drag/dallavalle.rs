@@ -49,6 +49,13 @@ fn exponent() -> f64 {
     3.1
 }
 
+/// As published.
+impl Default for Dallavalle {
+    fn default() -> Self {
+        Self { exponent: exponent() }
+    }
+}
+
 impl Dallavalle {
     /// Constants of the law.
     #[must_use]

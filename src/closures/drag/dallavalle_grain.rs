@@ -56,6 +56,13 @@ fn exponent() -> f64 {
     3.1
 }
 
+/// As published.
+impl Default for DallavalleGrain {
+    fn default() -> Self {
+        Self { constant: constant(), exponent: exponent() }
+    }
+}
+
 impl DallavalleGrain {
     /// Constants of the law.
     #[must_use]

@@ -31,6 +31,13 @@ pub struct Coulomb {
     pub mu_s: f64,
 }
 
+/// Of spheres: Chauchat & Medale (2010), as read in docs/theory.md.
+impl Default for Coulomb {
+    fn default() -> Self {
+        Self { mu_s: 0.43 }
+    }
+}
+
 impl Coulomb {
     /// Largest shear stress \[Pa] that grains under the pressure `p_p` \[Pa] carry at rest, and the stress at which they shear.
     #[must_use]

@@ -19,7 +19,7 @@ const WIDE: f64 = 60.0;
 
 /// A friction mu(I) that rises with the inertial number between two limits. A solver that asks for this takes any such law, from
 /// here or from outside; a law states its curve, and may state in closed form what else follows from it.
-pub trait FrictionLaw: Law {
+pub trait FrictionLaw: Law + Default {
     /// Friction coefficient at the inertial number `i`.
     #[must_use]
     fn mu<T: Real>(&self, i: T) -> T;
@@ -104,7 +104,7 @@ mod tests {
     use schemars::JsonSchema;
 
     /// mu(I) by its curve alone: all else is what follows from it.
-    #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
     struct Curve(MuI);
 
     impl Law for Curve {

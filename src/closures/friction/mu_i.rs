@@ -46,6 +46,13 @@ pub struct MuI {
     pub i_0: f64,
 }
 
+/// Of spheres: Maurin et al. (2016), J. Fluid Mech. 804, 490-512.
+impl Default for MuI {
+    fn default() -> Self {
+        Self { mu_s: 0.35, mu_2: 0.97, i_0: 0.69 }
+    }
+}
+
 impl MuI {
     /// The inertial number at which the friction is `mu`: 0 up to mu_s, `None` from mu_2 on.
     #[must_use]

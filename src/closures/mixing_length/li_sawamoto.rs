@@ -73,6 +73,13 @@ pub struct LiSawamoto {
     pub below_packed: BelowPacked,
 }
 
+/// Over a bed of spheres: Maurin et al. (2016), Chassagne et al. (2023).
+impl Default for LiSawamoto {
+    fn default() -> Self {
+        Self { kappa: karman(), phi_max: 0.61, below_packed: BelowPacked::Clipped }
+    }
+}
+
 impl Length for LiSawamoto {
     fn constants(&self) -> Vec<Constant> {
         vec![("κ", self.kappa, ""), ("φ_max", self.phi_max, "")]

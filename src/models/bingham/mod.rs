@@ -3,50 +3,17 @@
 mod solve;
 mod study;
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use solve::{equations, run};
 
-use crate::case::tables::{BinghamFluid, only};
 use crate::closures::regularisation::Regularisation;
 use crate::model::{ClosedForm, Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
-use crate::models::exact::bingham::{BinghamPlane, PlaneFlow, plane};
+use crate::models::exact::bingham::PLANE;
+use crate::models::exact::bingham::{BinghamPlane, plane};
 use crate::models::yielding::{RegularisationTable, YieldGrid, size};
+use crate::part;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::ChannelScene;
-use crate::{part, tables};
-
-/// The model: a Bingham fluid between two planes, solved numerically.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BinghamKindModel {
-    /// What kind of model: plane flow of a Bingham fluid.
-    pub kind: BinghamKind,
-}
-
-only!(
-    /// Plane flow of a Bingham fluid, solved numerically.
-    BinghamKind,
-    Bingham
-);
-
-tables! {
-    /// Bingham fluid between two planes: regularised, or with the exact yield.
-    pub struct BinghamTables {
-        /// The material.
-        fluid: BinghamFluid,
-        /// Geometry and drive.
-        flow: PlaneFlow,
-        /// The model.
-        model: BinghamKindModel,
-        /// How the yield stress is smoothed.
-        #[serde(default)]
-        regularisation: RegularisationTable,
-        /// Cells of the solver.
-        #[serde(default)]
-        grid: YieldGrid,
-    }
-}
 
 part! {
     /// Bingham fluid between two planes: regularised, or with the exact yield.
@@ -72,15 +39,9 @@ pub struct RegularisedPlane {
 }
 
 impl Model for OnMesh<RegularisedPlane> {
-    const INFO: ModelInfo = ModelInfo { name: "bingham", table: "bingham", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("bingham").taking(&PLANE);
     type Scene = ChannelScene;
     type Table = Bingham;
-    type Tables = BinghamTables;
-
-    fn split(tables: &BinghamTables) -> (ChannelScene, Bingham) {
-        let BinghamTables { fluid, flow, regularisation, grid, check, limit, .. } = tables.clone();
-        (flow.of(&fluid), Bingham { regularisation, grid, check, limit })
-    }
 
     fn build(scene: &ChannelScene, tables: &Bingham, faults: &mut Faults) -> Option<Self> {
         let size = size(&tables.regularisation, faults);

@@ -5,15 +5,13 @@ use std::f64::consts::PI;
 use super::{Coupled, Surface};
 use crate::closures::fluctuation::Fluctuation;
 use crate::dem::Bottom;
-use crate::model::{BULK_FRICTION, COLLISIONS, Effort, Model, Offer, PACKED, Term, TermTest, TurbulentScene};
+use crate::model::{BULK_FRICTION, COLLISIONS, Effort, Model, Offer, OwnCase, PACKED, Term, TermTest, TurbulentScene};
 use crate::units::significant;
 
 const MAURIN: &str = "Maurin et al. (2015); docs/coupled.md";
 const CHASSAGNE: &str = "Chassagne et al. (2023)";
 /// Shields number from which eddies make no difference to grains (docs/coupled.md: from 0.1 on the rates agree).
 const EDDIES: f64 = 0.1;
-/// Stiffness over weight and size of a grain, k_n/((rho_p - rho_f) g d^2), of the reference flow.
-const STIFFNESS: f64 = 1e4 / (1500.0 * 9.81 * 6e-3 * 6e-3);
 
 /// Thickness of the packed bed \[m].
 fn thickness(flow: &Coupled) -> f64 {
@@ -90,20 +88,5 @@ pub(super) fn offer(scene: &TurbulentScene, tolerance: f64) -> Offer {
         let wanted = format!("{} %", significant(100.0 * tolerance, 2));
         format!("θ = {theta}, and no continuum is known to be within {wanted} of the grains here")
     };
-    let mut own = vec![
-        format!("flow.depth={:?}", scene.depth),
-        format!("flow.slope={:?}", scene.sine),
-        format!("flow.length={:?}", 30.0 * scene.d),
-        format!("flow.width={:?}", 30.0 * scene.d),
-        format!("closures.contact.k_n={:?}", STIFFNESS * (scene.rho_p - scene.rho_f) * scene.g * scene.d * scene.d),
-    ];
-    if let Some((mu, e)) = scene.contacts {
-        own.extend([format!("closures.contact.mu={mu:?}"), format!("closures.contact.e_n={e:?}")]);
-    }
-    Offer {
-        effort: Effort::Minutes,
-        because,
-        template: "coupled_3d_chassagne_quick",
-        overrides: (scene.kind != Coupled::INFO.name).then(|| [scene.matter(), own].concat()),
-    }
+    Offer { effort: Effort::Minutes, because, case: OwnCase::Scene(Vec::new()) }
 }

@@ -3,108 +3,15 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::case::tables::SlopeDefinition;
-use crate::case::tables::{Fluid, Grains};
-use crate::closures::contact::LinearSpring;
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::fluctuation::Fluctuation;
-use crate::closures::mixing_length::MixingLength;
+use crate::closures::mixing_length::{LiSawamoto, MixingLength};
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::role::Only;
 use crate::closures::side_wall::SideWall;
 use crate::dem::{Bottom, Discrete};
 use crate::models::{GrainCell, Spring};
-use crate::{part, tables};
-
-/// A bed of grains that is let fall into place.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CoupledBed {
-    /// Layers of mobile grains N_l: their number is layers times the diameters along the flow, times those across it that the
-    /// width has room for.
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
-    pub layers: f64,
-    /// What the bed rests on.
-    #[serde(default)]
-    pub bottom: Bottom,
-    /// Largest elevation of the fixed grains over their mean, on bottom = "steps"; a third of the diameter where it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m", "minimum" = 0.0, "maximum" = 1.0))]
-    pub relief: Option<f64>,
-    /// Step between the elevations of the fixed grains; the relief itself where it is left out.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
-    pub relief_step: Option<f64>,
-}
-
-/// The channel: periodic along x, its tilt, and the free surface. Exactly one of height and depth.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CoupledFlow {
-    /// Period along the flow.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
-    pub length: f64,
-    /// Period across the flow, or the distance of the side walls.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
-    pub width: f64,
-    /// Whether there are side walls, with the friction of the grains, instead of a period.
-    #[serde(default)]
-    pub side_walls: bool,
-    /// Free surface h over the mean centre of the fixed grains.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e2))]
-    pub height: Option<f64>,
-    /// Free surface over the level of the bed at rest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e2))]
-    pub depth: Option<f64>,
-    /// Drive: the slope, as slope_definition says, or an angle.
-    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
-    pub slope: f64,
-    /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
-    pub slope_definition: SlopeDefinition,
-    /// Acceleration of gravity.
-    #[serde(default = "gravity")]
-    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
-    pub gravity: f64,
-}
-
-fn gravity() -> f64 {
-    9.81
-}
-
-/// The model: grains one by one in a fluid of one dimension.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CoupledModel {
-    /// What kind of model: every grain is followed in a column of fluid.
-    pub kind: CoupledKind,
-}
-
-/// Every grain is followed in a column of fluid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum CoupledKind {
-    /// Every grain is followed in a column of fluid.
-    Coupled,
-}
-
-/// Laws of the coupled flow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CoupledClosures {
-    /// Contact of two grains, or of a grain with a wall.
-    pub contact: Only<LinearSpring>,
-    /// Drag on single grains.
-    pub drag: Only<DallavalleGrain>,
-    /// Mixing length of the turbulence.
-    pub mixing_length: MixingLength,
-    /// Effective viscosity of the mixture.
-    #[serde(default = "clear")]
-    pub mixture_viscosity: MixtureViscosity,
-    /// Friction of the fluid on the side walls.
-    #[serde(default)]
-    pub side_wall: SideWall,
-    /// Eddies that a grain meets.
-    #[serde(default)]
-    pub fluctuation: Fluctuation,
-}
+use crate::part;
 
 fn clear() -> MixtureViscosity {
     MixtureViscosity::Clear
@@ -125,6 +32,7 @@ pub enum FluidScheme {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CoupledDiscrete {
     /// Simulated time after the bed has come to rest, transient included.
+    #[serde(default = "duration")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
     pub duration: f64,
     /// The run ends when the standard error of the transport rate is below this share of it; where it is left out it runs for
@@ -158,19 +66,19 @@ pub struct CoupledDiscrete {
     /// Whether a time step beyond the limits of contacts and drag is taken nevertheless.
     #[serde(default)]
     pub force_time_step: bool,
-    /// The deep bed is frozen where a layer of one diameter moves less than this share of a diameter in hold_period, the mean of its
+    /// The deep bed is frozen where a layer of one diameter moves less than this share of a diameter in freeze_period, the mean of its
     /// grains, and released when the layer above moves more. Without it all grains are moved.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
-    pub hold_creep: Option<f64>,
+    pub freeze_below: Option<f64>,
     /// Time between two checks of what may be frozen.
-    #[serde(default = "hold_period")]
+    #[serde(default = "freeze_period")]
     #[schemars(extend("x-unit" = "s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
-    pub hold_period: f64,
+    pub freeze_period: f64,
     /// Time from which on layers are frozen.
     #[serde(default)]
     #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 1e5))]
-    pub hold_after: f64,
+    pub freeze_after: f64,
     /// Derived time step over the stability limit of a grain in a packing.
     #[serde(default = "safety")]
     #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
@@ -191,6 +99,34 @@ pub struct CoupledDiscrete {
     #[serde(default)]
     #[schemars(extend("minimum" = 0, "maximum" = 10_000))]
     pub frames: u32,
+}
+
+impl Default for CoupledDiscrete {
+    fn default() -> Self {
+        Self {
+            duration: duration(),
+            known_to: None,
+            coupling_period: period(),
+            fluid_steps: one(),
+            fluid_scheme: FluidScheme::default(),
+            sample_period: sample(),
+            settle: settle(),
+            time_step: None,
+            force_time_step: false,
+            freeze_below: None,
+            freeze_period: freeze_period(),
+            freeze_after: 0.0,
+            safety: safety(),
+            skin: skin(),
+            slice: slice(),
+            seed: 0,
+            frames: 0,
+        }
+    }
+}
+
+fn duration() -> f64 {
+    20.0
 }
 
 impl CoupledDiscrete {
@@ -224,7 +160,7 @@ fn sample() -> f64 {
 fn settle() -> f64 {
     2.0
 }
-fn hold_period() -> f64 {
+fn freeze_period() -> f64 {
     0.2
 }
 
@@ -238,34 +174,17 @@ fn slice() -> f64 {
     1.0 / 30.0
 }
 
-tables! {
-    /// Grains with friction, grain by grain, in a turbulent fluid of one dimension that drives them.
-    pub struct CoupledTables {
-        /// The fluid.
-        fluid: Fluid,
-        /// The grains.
-        grains: Grains,
-        /// The bed.
-        bed: CoupledBed,
-        /// The channel, its tilt and the free surface.
-        flow: CoupledFlow,
-        /// The model.
-        model: CoupledModel,
-        /// Laws.
-        closures: CoupledClosures,
-        /// How grains are moved, how often the fluid is solved, and what is averaged.
-        discrete: CoupledDiscrete,
-    }
-}
-
 /// Laws of the coupled flow; friction and restitution are those of the grains.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct CoupledLaws {
     /// Contact of two grains, or of a grain with a wall.
+    #[serde(default)]
     pub contact: Spring,
     /// Drag on single grains.
+    #[serde(default)]
     pub drag: Only<DallavalleGrain>,
     /// Mixing length of the turbulence.
+    #[serde(default = "li_sawamoto")]
     pub mixing_length: MixingLength,
     /// Effective viscosity of the mixture.
     #[serde(default = "clear")]
@@ -276,6 +195,23 @@ pub struct CoupledLaws {
     /// Eddies that a grain meets.
     #[serde(default)]
     pub fluctuation: Fluctuation,
+}
+
+fn li_sawamoto() -> MixingLength {
+    MixingLength::LiSawamoto(LiSawamoto::default())
+}
+
+impl Default for CoupledLaws {
+    fn default() -> Self {
+        Self {
+            contact: Spring::default(),
+            drag: Only::default(),
+            mixing_length: li_sawamoto(),
+            mixture_viscosity: clear(),
+            side_wall: SideWall::default(),
+            fluctuation: Fluctuation::default(),
+        }
+    }
 }
 
 part! {
@@ -298,10 +234,13 @@ part! {
         #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1.0))]
         relief_step: Option<f64>,
         /// The cell.
+        #[serde(default)]
         cell: GrainCell,
         /// Laws.
+        #[serde(default)]
         closures: CoupledLaws,
         /// How grains and fluid are stepped.
+        #[serde(default)]
         discrete: CoupledDiscrete,
     }
 }

@@ -12,7 +12,7 @@ const LATE: usize = 10;
 /// What helps where the published integral leaves no turbulence in the lowest water.
 const DENSE: &str = "closures.mixing_length.below_packed = \"clipped\", or a closures.mixing_length.phi_max well above the solid fraction of the bed: over a bed denser than that, the lowest water has no turbulence and runs away";
 /// What helps elsewhere.
-const COARSE: &str = "thicker slices of the fluid (discrete.slice), or a larger cell (flow.length, flow.width)";
+const COARSE: &str = "thicker slices of the fluid (discrete.slice), or a larger cell (cell.length, cell.width)";
 
 impl Run<'_> {
     /// Refuses water that on the mean flows against the slope: over the last samples, or, at the `end`, over all that are

@@ -1,39 +1,11 @@
 //! What can be wrong with grains in a fluid: its case, and the fluid or the grains on the way.
 
-use crate::case::CaseFault;
 use crate::column::ColumnError;
 use crate::dem::GrainError;
 use crate::result::{Class, MethodError, codes};
 
 /// What helps grains that are thrown against each other by water without turbulence.
 const THROWN: &str = "closures.mixing_length.below_packed = \"clipped\" if the bed is denser than closures.mixing_length.phi_max, for then the lowest water has no turbulence and runs away; else stiffer contacts (closures.contact.k_n) or slower grains";
-
-/// What does not define the water over the grains.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum CoupledFault {
-    /// Not exactly one free surface.
-    #[error("the flow has {} free surfaces: give height or depth", given.len())]
-    Surfaces {
-        /// keys that were given
-        given: Vec<String>,
-    },
-}
-
-codes!(CoupledFault {
-    Self::Surfaces { .. } => "surfaces",
-});
-
-impl CaseFault for CoupledFault {
-    fn code(&self) -> &'static str {
-        self.code()
-    }
-
-    fn allowed(&self) -> Option<String> {
-        match self {
-            Self::Surfaces { .. } => Some("one of height, depth".into()),
-        }
-    }
-}
 
 /// Why the grains and their fluid cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -66,7 +38,7 @@ impl MethodError for CoupledError {
     fn hint(&self) -> String {
         match self {
             Self::Fluid(_) => {
-                "a shorter discrete.coupling_period, or more grains in a cell (flow.length, flow.width, discrete.slice)"
+                "a shorter discrete.coupling_period, or more grains in a cell (cell.length, cell.width, discrete.slice)"
             }
             Self::Thrown(_) => THROWN,
         }

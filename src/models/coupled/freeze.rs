@@ -1,7 +1,7 @@
 //! Freezing of the deep bed: layers that hardly creep are frozen, and released when the layer above them moves.
 //!
-//! Every `hold_period` the mean displacement of the grains is taken in layers of one diameter. From the bottom up, layers whose grains
-//! moved less than `hold_creep` d on average are at rest. All of them but the uppermost are frozen: their grains are fixed, pairs of
+//! Every `freeze_period` the mean displacement of the grains is taken in layers of one diameter. From the bottom up, layers whose grains
+//! moved less than `freeze_below` d on average are at rest. All of them but the uppermost are frozen: their grains are fixed, pairs of
 //! them are not computed. The uppermost stays free, as a sensor: if it comes to move, the two layers under it are released. Frozen
 //! grains carry stress to the ground that is not averaged; their creep is neglected.
 

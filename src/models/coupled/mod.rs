@@ -27,6 +27,6 @@ mod theory;
 
 pub use case::FluidScheme;
 use equations::equations;
-pub use error::{CoupledError, CoupledFault};
+pub use error::CoupledError;
 pub use problem::{Coupled, Freeze, Relief, Surface};
 use run::run;

@@ -1,6 +1,6 @@
 //! Problems of grains in a fluid.
 
-use super::case::{CoupledClosures, CoupledDiscrete, CoupledLaws, CoupledTable, CoupledTables, FluidScheme};
+use super::case::{CoupledDiscrete, CoupledTable, FluidScheme};
 use super::{advice, equations, figures, run, study};
 use crate::case::Fault;
 use crate::closures::contact::linear_spring;
@@ -14,11 +14,11 @@ use crate::dem::drive::accepts;
 use crate::dem::{Bottom, GrainBed};
 use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
 use crate::models::BedFault;
-use crate::models::coupled::CoupledFault;
-use crate::models::{GrainCell, layers, needed, solves, touching};
+
+use crate::models::{layers, load};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Figure, Outcome};
-use crate::scene::{Bed, BedFlow, BedScene, Top};
+use crate::scene::{BedScene, Top};
 
 /// Grains in a fluid that flows over them. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -104,83 +104,48 @@ impl Coupled {
 const MAX_GRAINS: f64 = 2e7;
 
 impl Model for Coupled {
-    const INFO: ModelInfo = ModelInfo { name: "coupled", table: "coupled", stochastic: true };
+    const INFO: ModelInfo = ModelInfo::new("coupled")
+        .taking(&["slope", "shields", "u_star", "width"])
+        .under(&["free-surface", "over-fixed-grains"])
+        .stochastic();
     type Scene = BedScene;
     type Table = CoupledTable;
-    type Tables = CoupledTables;
-
-    fn split(tables: &CoupledTables) -> (BedScene, CoupledTable) {
-        let CoupledTables { fluid, grains, bed, flow, closures, discrete, check, limit, .. } = tables.clone();
-        let (width, across) = if flow.side_walls { (Some(flow.width), None) } else { (None, Some(flow.width)) };
-        let (grains, contact) = touching(&grains, &closures.contact.0);
-        let top = flow.height.map_or(Top::FreeSurface, |height| Top::OverFixedGrains { height });
-        let scene = BedScene {
-            fluid,
-            grains,
-            bed: Bed::default(),
-            flow: BedFlow {
-                depth: flow.depth,
-                width,
-                slope: Some(flow.slope),
-                slope_definition: Some(flow.slope_definition),
-                ..BedFlow::new(top, flow.gravity)
-            },
-        };
-        let CoupledClosures { drag, mixing_length, mixture_viscosity, side_wall, fluctuation, .. } = closures;
-        let table = CoupledTable {
-            layers: Some(bed.layers),
-            bottom: bed.bottom,
-            relief: bed.relief,
-            relief_step: bed.relief_step,
-            cell: GrainCell { length: flow.length, width: across },
-            closures: CoupledLaws { contact, drag, mixing_length, mixture_viscosity, side_wall, fluctuation },
-            discrete,
-            check,
-            limit,
-        };
-        (scene, table)
-    }
 
     fn build(scene: &BedScene, table: &CoupledTable, faults: &mut Faults) -> Option<Self> {
         let (fluid, grains, side_walls) = (&scene.fluid, &scene.grains, scene.flow.width.is_some());
         let CoupledTable { cell, closures, discrete, .. } = table;
-        let contact = closures.contact.of(grains, faults);
         let layers = layers(table.layers, &scene.bed, grains.diameter, faults);
-        let width = cell.across(scene.flow.width, faults);
-        solves(Self::INFO.name, &scene.flow, &["slope"], &["free-surface", "over-fixed-grains"], faults);
-        needed("flow.slope", scene.flow.slope, faults);
-        let beta = scene.flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok().flatten();
+        let weight = (grains.density - fluid.density) * scene.flow.gravity;
+        let contact = closures.contact.of(grains, load(layers, weight, grains.diameter), faults);
+        let [length, width] = cell.size(scene.flow.width, grains.diameter, faults);
         let d = grains.diameter;
         if grains.density <= fluid.density {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
-        let surface = match (scene.flow.top, scene.flow.depth) {
-            (Top::OverFixedGrains { height }, None) => Some(Surface::Height(height)),
-            (Top::FreeSurface, Some(depth)) => Some(Surface::Depth(depth)),
-            (top, depth) => {
-                let given = [matches!(top, Top::OverFixedGrains { .. }).then_some("height"), depth.map(|_| "depth")];
-                let given = given.into_iter().flatten().map(str::to_owned).collect();
-                faults.push(("flow", CoupledFault::Surfaces { given }));
-                None
-            }
+        // Neither a slope nor a surface is there where the drives of the scene are wrong, which it says itself.
+        let beta = scene.slope();
+        let surface = match scene.flow.top {
+            Top::OverFixedGrains { height } => Some(Surface::Height(height)),
+            _ => scene.depth().map(Surface::Depth),
         };
-        let (layers, width) = (layers?, width?);
+        let layers = layers?;
         let across = if side_walls { (width / d).floor() } else { width / d };
-        let count = layers * (cell.length / d) * across.max(1.0);
+        let count = layers * (length / d) * across.max(1.0);
         let mut within = |path, name: &'static str, value: f64, least: f64, most: f64| {
             if !(least..=most).contains(&value) {
                 faults.push((path, BedFault::GrainRoom { name, value, least, most }));
             }
         };
-        within("flow.length", "flow.length", cell.length, 4.0 * d, 1e3);
-        within("flow.width", "flow.width", width, if side_walls { d } else { 4.0 * d }, 1e3);
-        within("bed.layers", "the number of mobile grains", count, 1.0, MAX_GRAINS);
+        within("cell.length", "cell.length", length, 4.0 * d, 1e3);
+        let across_key = if side_walls { "flow.width" } else { "cell.width" };
+        within(across_key, across_key, width, if side_walls { d } else { 4.0 * d }, 1e3);
+        within("layers", "the number of mobile grains", count, 1.0, MAX_GRAINS);
         let relief = Relief {
             largest: table.relief.unwrap_or(d / 3.0),
             step: table.relief_step.or(table.relief).unwrap_or(d / 3.0),
         };
         if table.bottom == Bottom::Steps {
-            within("bed.relief", "bed.relief", relief.largest, 0.0, d);
+            within("relief", "relief", relief.largest, 0.0, d);
         }
         let CoupledDiscrete { coupling_period, sample_period, duration, .. } = *discrete;
         within("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
@@ -201,7 +166,7 @@ impl Model for Coupled {
                 rho_p: grains.density,
                 mobile,
                 bottom: table.bottom,
-                size: [cell.length, width],
+                size: [length, width],
                 side_walls,
                 smooth_walls: false,
                 beta: beta?,
@@ -221,10 +186,10 @@ impl Model for Coupled {
             coupling_period,
             fluid_steps: discrete.fluid_steps,
             fluid_scheme: discrete.fluid_scheme,
-            freeze: discrete.hold_creep.map(|creep| Freeze {
+            freeze: discrete.freeze_below.map(|creep| Freeze {
                 creep,
-                period: discrete.hold_period,
-                after: discrete.hold_after,
+                period: discrete.freeze_period,
+                after: discrete.freeze_after,
             }),
             sample_period,
             known_to: discrete.known_to,

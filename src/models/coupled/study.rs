@@ -13,10 +13,10 @@ pub(super) fn plan(flow: &Coupled) -> StudyPlan {
         .map(|&share| rung("duration", format!("{} s", share * duration), vec![lasting(share)]))
         .collect();
     for share in [0.25, 0.5] {
-        let mut changes = vec![format!("flow.length={}", share * length)];
+        let mut changes = vec![format!("cell.length={}", share * length)];
         let mut words = format!("{} mm long", 1e3 * share * length);
         if !flow.bed.side_walls {
-            changes.push(format!("flow.width={}", share * width));
+            changes.push(format!("cell.width={}", share * width));
             words += &format!(", {} mm wide", 1e3 * share * width);
         }
         rungs.push(rung("smaller cell", words, changes));
@@ -30,7 +30,7 @@ pub(super) fn plan(flow: &Coupled) -> StudyPlan {
     }
     for creep in ["0.003", "0.01"] {
         let words = format!("layers frozen below {creep} d in 0.2 s");
-        rungs.push(rung("deep bed frozen", words, vec![format!("discrete.hold_creep={creep}")]));
+        rungs.push(rung("deep bed frozen", words, vec![format!("discrete.freeze_below={creep}")]));
     }
     StudyPlan { rungs, ..StudyPlan::default() }
 }

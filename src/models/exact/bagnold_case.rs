@@ -3,82 +3,22 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ExactKind;
 use super::bagnold::{equations, run};
-use crate::case::tables::{Grains, Grid, SlopeDefinition, only};
+use crate::case::tables::Grid;
 use crate::closures::friction::{self, MuI};
 use crate::closures::role::Only;
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
 use crate::models::BedFault;
+use crate::part;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
-use crate::scene::{self, GranularFlow, GranularScene};
-use crate::{part, tables};
-
-/// A film of grains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct Film {
-    /// Solid fraction of the film, the same at every depth.
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
-    pub phi: f64,
-}
-
-/// A film that flows down a slope under its own weight.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct FilmFlow {
-    /// Thickness H of the film, normal to the slope.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub height: f64,
-    /// Drive: the slope, as slope_definition says, or an angle.
-    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
-    pub slope: f64,
-    /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
-    pub slope_definition: SlopeDefinition,
-    /// Acceleration of gravity.
-    #[serde(default = "crate::case::tables::standard_gravity")]
-    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
-    pub gravity: f64,
-}
-
-/// The model: Bagnold's granular film in closed form.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BagnoldModel {
-    /// What kind of model: this one is a closed form.
-    pub kind: ExactKind,
-    /// Dry grains down a slope.
-    pub solution: BagnoldSolution,
-}
-
-only!(
-    /// Dry grains down a slope.
-    BagnoldSolution,
-    BagnoldFilm
-);
+use crate::scene::GranularScene;
 
 /// Laws of the granular film.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct FilmClosures {
     /// Friction of the grains.
     pub friction: Only<MuI>,
-}
-
-tables! {
-    /// Dry grains down a slope, in closed form.
-    pub struct BagnoldFilmTables {
-        /// The grains.
-        grains: Grains,
-        /// The film.
-        bed: Film,
-        /// Geometry and drive.
-        flow: FilmFlow,
-        /// The model.
-        model: BagnoldModel,
-        /// Laws.
-        closures: FilmClosures,
-        /// Levels of the profile.
-        #[serde(default)]
-        grid: Grid,
-    }
 }
 
 part! {
@@ -112,25 +52,14 @@ pub struct GranularFilm {
 }
 
 impl Model for OnMesh<GranularFilm> {
-    const INFO: ModelInfo = ModelInfo { name: "exact/bagnold-film", table: "bagnold-film", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("bagnold-film").taking(&[]);
     type Scene = GranularScene;
     type Table = BagnoldFilm;
-    type Tables = BagnoldFilmTables;
-
-    fn split(tables: &BagnoldFilmTables) -> (GranularScene, BagnoldFilm) {
-        let BagnoldFilmTables { grains, bed, flow, closures, grid, check, limit, .. } = tables.clone();
-        let FilmFlow { height, slope, slope_definition, gravity } = flow;
-        let scene = GranularScene {
-            grains: scene::Grains::new(grains.diameter, grains.density),
-            bed: scene::Bed { thickness: Some(height), phi: Some(bed.phi) },
-            flow: GranularFlow { slope, slope_definition, gravity, width: None },
-        };
-        (scene, BagnoldFilm { closures, grid, check, limit })
-    }
 
     fn build(scene: &GranularScene, table: &BagnoldFilm, faults: &mut Faults) -> Option<Self> {
         let (GranularScene { grains, bed, flow }, BagnoldFilm { closures, grid, .. }) = (scene, table);
         let beta = flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok();
+        let thickness = faults.needed("bed.thickness", bed.thickness);
         let friction = closures.friction.0;
         if friction.mu_2 <= friction.mu_s {
             faults
@@ -139,8 +68,8 @@ impl Model for OnMesh<GranularFilm> {
         let problem = GranularFilm {
             rho_p: grains.density,
             d: grains.diameter,
-            phi: bed.phi?,
-            h: bed.thickness?,
+            phi: bed.phi().value(),
+            h: thickness?,
             beta: beta?,
             g: flow.gravity,
             friction,

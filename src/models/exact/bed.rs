@@ -1,10 +1,10 @@
 //! A laminar flow between two planes over a bed of grains, as its closed form, its solver and its cross-section take it.
 
-use schemars::{JsonSchema, Schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::case::Fault;
-use crate::case::tables::{Bed, Fluid, Grains, one_of};
+
 use crate::closures::Info;
 use crate::closures::dilatancy::{self, PhiIv};
 use crate::closures::drag::{self, CarmanKozeny};
@@ -12,40 +12,16 @@ use crate::closures::friction::{self, Coulomb, MuIv};
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::role::{Only, choice};
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
+use crate::models::BedFault;
 use crate::models::exact::ExactFault;
-use crate::models::{BedFault, solves};
-use crate::scene::{self, BedFlow, BedScene, Top};
-
-/// A flow between two planes over a bed. Exactly one drive.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(transform = laminar_drives)]
-pub struct LaminarFlow {
-    /// Flow height H: distance between the lower and the upper wall, bed included.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub height: f64,
-    /// Drive: fall of pressure along the flow, -dp/dx.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
-    pub pressure_gradient: Option<f64>,
-    /// Drive: wanted Shields number; the pressure gradient that gives it is solved for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub shields: Option<f64>,
-    /// Acceleration of gravity.
-    #[serde(default = "crate::case::tables::standard_gravity")]
-    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
-    pub gravity: f64,
-}
-
-fn laminar_drives(schema: &mut Schema) {
-    one_of(schema, &["pressure_gradient", "shields"]);
-}
+use crate::scene::BedScene;
 
 /// One velocity for fluid and grains, or two.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Form {
     /// Fluid and grains share one velocity.
+    #[default]
     Mixed,
     /// Two velocities, coupled by the drag: a flow through the static bed, a slip in the mobile one, a threshold of motion.
     TwoFluid,
@@ -55,8 +31,10 @@ pub enum Form {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedClosures {
     /// Friction of the grains.
+    #[serde(default)]
     pub friction: Only<Coulomb>,
     /// Effective viscosity of the mixture.
+    #[serde(default = "einstein")]
     pub mixture_viscosity: MixtureViscosity,
     /// Drag between the phases; only the two-fluid form has it.
     #[serde(default)]
@@ -64,6 +42,21 @@ pub struct BedClosures {
     /// Solid fraction of sheared grains; only with friction by mu(I_v).
     #[serde(default)]
     pub dilatancy: BedPacking,
+}
+
+pub(in crate::models) fn einstein() -> MixtureViscosity {
+    MixtureViscosity::Einstein
+}
+
+impl Default for BedClosures {
+    fn default() -> Self {
+        Self {
+            friction: Only::default(),
+            mixture_viscosity: einstein(),
+            drag: BedDrag::default(),
+            dilatancy: BedPacking::default(),
+        }
+    }
 }
 
 choice! {
@@ -200,6 +193,11 @@ impl LaminarBed {
             mu_2: self.rise.map(|rise| rise.mu_2),
             dilates: self.dilatancy.is_some(),
             viscosity: self.viscosity.relative(self.phi),
+            viscosity_law: serde_json::to_value(self.viscosity)
+                .ok()
+                .and_then(|law| toml::Value::try_from(law).ok())
+                .map(|law| law.to_string())
+                .unwrap_or_default(),
             two_velocities: self.drag.is_some(),
             k_ck: self.drag.map(|drag| drag.k_ck),
         })
@@ -211,7 +209,7 @@ impl LaminarBed {
             what: "slip between the phases",
             source: CHAUCHAT,
             test: TermTest::Solve {
-                change: vec!["model.form=mixed".into(), "closures.drag=".into()],
+                change: vec!["form=mixed".into(), "closures.drag=".into()],
                 left: "one velocity for both",
                 free: false,
             },
@@ -224,29 +222,6 @@ impl LaminarBed {
     }
 }
 
-/// A flow between two walls at a distance of `height` \[m] over a bed.
-pub(in crate::models) fn between_planes(
-    (fluid, grains, bed): (&Fluid, &Grains, &Bed),
-    height: f64,
-    gravity: f64,
-) -> BedScene {
-    BedScene {
-        fluid: *fluid,
-        grains: scene::Grains::new(grains.diameter, grains.density),
-        bed: scene::Bed { thickness: Some(bed.level), phi: Some(bed.phi) },
-        flow: BedFlow { depth: Some(height - bed.level), ..BedFlow::new(Top::Plane, gravity) },
-    }
-}
-
-impl LaminarFlow {
-    /// This flow over a bed.
-    pub(in crate::models) fn over(&self, matter: (&Fluid, &Grains, &Bed)) -> BedScene {
-        let mut scene = between_planes(matter, self.height, self.gravity);
-        (scene.flow.pressure_gradient, scene.flow.shields) = (self.pressure_gradient, self.shields);
-        scene
-    }
-}
-
 pub(in crate::models) fn laminar_bed(
     scene: &BedScene,
     laws: BedLaws,
@@ -255,14 +230,15 @@ pub(in crate::models) fn laminar_bed(
     faults: &mut Faults,
 ) -> Option<LaminarBed> {
     let BedScene { fluid, grains, bed, flow } = scene;
-    solves(model, flow, &["pressure_gradient", "shields", "section"], &["plane"], faults);
-    let (level, phi, depth) = (bed.thickness?, bed.phi?, flow.depth?);
+    let level = faults.needed("bed.thickness", bed.thickness);
+    let depth = faults.needed("flow.depth", flow.depth);
+    let (level, phi, depth) = (level?, bed.phi().value(), depth?);
     let height = level + depth;
     if depth <= 0.0 {
-        faults.push(("bed.level", BedFault::NoRoomForFlow { level, height }));
+        faults.push(("flow.depth", BedFault::NoDepth));
     }
     if level < grains.diameter {
-        faults.push(("bed.level", BedFault::ThinnerThanAGrain { level, diameter: grains.diameter }));
+        faults.push(("bed.thickness", BedFault::ThinnerThanAGrain { level, diameter: grains.diameter }));
     }
     if grains.density <= fluid.density {
         faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));

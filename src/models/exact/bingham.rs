@@ -11,8 +11,9 @@
 //!
 //! Nothing moves for x >= 1. Source: Guyon, Hulin & Petit (2001), Hydrodynamique physique; Chauchat & Medale (2010), sec. 3.1.
 
+pub(in crate::models) use super::bingham_case::PLANE;
 pub(in crate::models) use super::bingham_case::plane;
-pub use super::bingham_case::{BinghamDrive, BinghamPlane, PlaneFlow};
+pub use super::bingham_case::{BinghamDrive, BinghamPlane};
 use super::{Column, balance, no_root, outcome, tabulate};
 use crate::models::premises;
 use crate::numerics::levels::{between_walls, graded};

@@ -1,67 +1,12 @@
 //! The case of the Bingham fluid between two planes, and the problem that its closed form and its solver share.
 
-use schemars::{JsonSchema, Schema};
-use serde::{Deserialize, Serialize};
-
-use super::ExactKind;
 use super::bingham::{equations, run};
-use crate::case::tables::{BinghamFluid, Grid, one_of, only};
+use crate::case::tables::Grid;
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::part;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
-use crate::scene::{ChannelFlow, ChannelScene};
-use crate::{part, tables};
-
-/// A flow between two planes. Exactly one drive.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(transform = plane_drives)]
-pub struct PlaneFlow {
-    /// Flow height H: distance between the two planes.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub height: f64,
-    /// Drive: fall of pressure along the flow, -dp/dx.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
-    pub pressure_gradient: Option<f64>,
-    /// Drive: wanted mean velocity; the pressure gradient that gives it is solved for.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
-    pub mean_velocity: Option<f64>,
-}
-
-fn plane_drives(schema: &mut Schema) {
-    one_of(schema, &["pressure_gradient", "mean_velocity"]);
-}
-
-/// The model: Bingham plane Poiseuille flow in closed form.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BinghamModel {
-    /// What kind of model: this one is a closed form.
-    pub kind: ExactKind,
-    /// Bingham fluid between two planes.
-    pub solution: BinghamSolution,
-}
-
-only!(
-    /// Bingham fluid between two planes.
-    BinghamSolution,
-    BinghamPlane
-);
-
-tables! {
-    /// Bingham fluid between two planes, in closed form.
-    pub struct BinghamPlaneTables {
-        /// The material.
-        fluid: BinghamFluid,
-        /// Geometry and drive.
-        flow: PlaneFlow,
-        /// The model.
-        model: BinghamModel,
-        /// Levels of the profile.
-        #[serde(default)]
-        grid: Grid,
-    }
-}
+use crate::scene::ChannelScene;
 
 part! {
     /// Bingham fluid between two planes, in closed form.
@@ -107,16 +52,8 @@ impl BinghamPlane {
     }
 }
 
-impl PlaneFlow {
-    /// This flow of a fluid.
-    pub(in crate::models) fn of(&self, fluid: &BinghamFluid) -> ChannelScene {
-        let (pressure_gradient, mean_velocity) = (self.pressure_gradient, self.mean_velocity);
-        ChannelScene {
-            fluid: fluid.into(),
-            flow: ChannelFlow { pressure_gradient, mean_velocity, ..ChannelFlow::new(self.height) },
-        }
-    }
-}
+/// What a plane flow of a yield-stress fluid takes of a channel.
+pub(in crate::models) const PLANE: [&str; 3] = ["pressure_gradient", "mean_velocity", "yield_stress"];
 
 /// The plane flow of a scene; `None` where it has no drive.
 pub(in crate::models) fn plane(scene: &ChannelScene) -> Option<BinghamPlane> {
@@ -130,15 +67,9 @@ pub(in crate::models) fn plane(scene: &ChannelScene) -> Option<BinghamPlane> {
 }
 
 impl Model for OnMesh<BinghamPlane> {
-    const INFO: ModelInfo = ModelInfo { name: "exact/bingham-plane", table: "bingham-exact", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("bingham-exact").taking(&PLANE);
     type Scene = ChannelScene;
     type Table = BinghamExact;
-    type Tables = BinghamPlaneTables;
-
-    fn split(tables: &BinghamPlaneTables) -> (ChannelScene, BinghamExact) {
-        let BinghamPlaneTables { fluid, flow, grid, check, limit, .. } = tables.clone();
-        (flow.of(&fluid), BinghamExact { grid, check, limit })
-    }
 
     fn build(scene: &ChannelScene, table: &BinghamExact, _: &mut Faults) -> Option<Self> {
         let problem = plane(scene)?;

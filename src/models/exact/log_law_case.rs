@@ -3,48 +3,21 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::ExactKind;
 use super::log_law::{equations, run};
-use crate::case::tables::{Fluid, Grid, only};
+use crate::case::tables::Grid;
 use crate::closures::mixing_length::{self, Prandtl};
 use crate::closures::role::Only;
 use crate::closures::wall::{self, Rough};
-use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve};
+use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, OwnCase, Solve};
 use crate::models::exact::ExactFault;
+use crate::part;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
-use crate::scene::{ChannelFlow, ChannelScene};
+use crate::scene::ChannelScene;
 use crate::units::significant;
-use crate::{part, tables};
 
 /// Shields number at which the first grains move: intercept of Q*^(2/3), with eddies (docs/coupled.md).
 const ONSET: f64 = 0.045;
-
-/// A turbulent flow over a wall, driven by the stress at the wall.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct WallFlow {
-    /// Flow height H: elevation up to which the profile is given.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub height: f64,
-    /// Drive: friction velocity sqrt(tau/rho_f).
-    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
-    pub u_star: f64,
-}
-
-/// The model: the logarithmic law.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LogLawModel {
-    /// What kind of model: this one is a closed form.
-    pub kind: ExactKind,
-    /// Turbulent layer of constant stress over a rough wall.
-    pub solution: LogLawSolution,
-}
-
-only!(
-    /// Turbulent layer of constant stress over a rough wall.
-    LogLawSolution,
-    LogLaw
-);
 
 /// Laws of the turbulent layer.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -53,23 +26,6 @@ pub struct WallClosures {
     pub mixing_length: Only<Prandtl>,
     /// Roughness of the wall.
     pub wall: Only<Rough>,
-}
-
-tables! {
-    /// Turbulent layer of constant stress over a rough wall, in closed form.
-    pub struct LogLawTables {
-        /// The fluid.
-        fluid: Fluid,
-        /// Geometry and drive.
-        flow: WallFlow,
-        /// The model.
-        model: LogLawModel,
-        /// Laws.
-        closures: WallClosures,
-        /// Levels of the profile.
-        #[serde(default)]
-        grid: Grid,
-    }
 }
 
 part! {
@@ -101,19 +57,9 @@ pub struct RoughWall {
 }
 
 impl Model for OnMesh<RoughWall> {
-    const INFO: ModelInfo = ModelInfo { name: "exact/log-law", table: "log-law", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("log-law").taking(&["u_star"]);
     type Scene = ChannelScene;
     type Table = LogLaw;
-    type Tables = LogLawTables;
-
-    fn split(tables: &LogLawTables) -> (ChannelScene, LogLaw) {
-        let LogLawTables { fluid, flow, closures, grid, check, limit, .. } = tables.clone();
-        let scene = ChannelScene {
-            fluid: (&fluid).into(),
-            flow: ChannelFlow { u_star: Some(flow.u_star), ..ChannelFlow::new(flow.height) },
-        };
-        (scene, LogLaw { closures, grid, check, limit })
-    }
 
     fn build(scene: &ChannelScene, table: &LogLaw, faults: &mut Faults) -> Option<Self> {
         let (ChannelScene { fluid, flow }, LogLaw { closures, grid, .. }) = (scene, table);
@@ -139,14 +85,16 @@ impl Model for OnMesh<RoughWall> {
         (scene.theta < ONSET).then(|| Offer {
             effort: Effort::None,
             because: format!("θ = {theta} is below {ONSET}, where the first grains move: the flow over a bed at rest"),
-            template: "exact_1d_loglaw",
-            overrides: Some(vec![
-                format!("fluid.density={:?}", scene.rho_f),
-                format!("fluid.viscosity={:?}", scene.nu * scene.rho_f),
-                format!("flow.height={:?}", scene.depth),
-                format!("flow.u_star={:?}", scene.u_star()),
-                format!("closures.wall.k_s={:?}", scene.d),
-            ]),
+            case: OwnCase::Other(format!(
+                "format = 2\nscene = \"channel\"\n[case]\ntitle = \"The flow over a bed at rest\"\n\
+                 [fluid]\ndensity = {:?}\nviscosity = {:?}\n[flow]\ndepth = {:?}\nu_star = {:?}\n\
+                 [log-law.closures]\nmixing_length = {{ law = \"prandtl\" }}\nwall = {{ law = \"rough\", k_s = {:?} }}\n",
+                scene.rho_f,
+                scene.nu * scene.rho_f,
+                scene.depth,
+                scene.u_star(),
+                scene.d,
+            )),
         })
     }
 }

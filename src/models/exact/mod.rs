@@ -17,18 +17,11 @@ pub use error::{ExactError, ExactFault};
 
 use std::ops::ControlFlow;
 
-use crate::case::tables::only;
 use crate::models::premises::outside;
 use crate::result::{
     Balance, Failure, Outcome, Profile, Quantity, Results, Series, Snapshot, Status, Validity, Watch, quantity,
 };
 use bed_results::closure_name;
-
-only!(
-    /// Closed forms.
-    ExactKind,
-    Exact
-);
 
 /// Levels between two looks at the watch.
 const BETWEEN_LOOKS: usize = 512;

@@ -40,7 +40,7 @@ impl MethodError for ImpactError {
         match self {
             Self::TooDeep { .. } => "stiffer contacts (closures.contact.k_n) or a slower impact (flow.velocity)",
             Self::NoParting { .. } => {
-                "a larger restitution coefficient (closures.contact.e_n) or fewer discrete.steps_per_contact"
+                "a larger restitution coefficient (grains.restitution) or fewer discrete.steps_per_contact"
             }
         }
         .into()

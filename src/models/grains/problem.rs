@@ -1,19 +1,16 @@
 //! Problems of single grains.
 
-use super::case::{
-    GrainFlow, GrainLaws, GrainsBedTables, GrainsTable, ImpactTable, ImpactTables, Target, VerificationCase as Which,
-    VerificationTable, VerificationTables,
-};
+use super::case::{GrainsTable, ImpactTable, Target, VerificationCase as Which, VerificationTable};
 use super::{bed, impact, verification};
 use crate::closures::contact::{LinearSpring, linear_spring};
 use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
 use crate::model::{Description, Faults, Model, ModelInfo, Solve};
 use crate::models::BedFault;
-use crate::models::{GrainCell, layers, touching};
+use crate::models::{layers, load};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Outcome};
-use crate::scene::{Bed, BenchmarkScene, GranularFlow, GranularScene};
+use crate::scene::{BenchmarkScene, GranularScene};
 
 /// The impact of one sphere. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,61 +56,38 @@ pub struct Verification {
 const MAX_GRAINS: f64 = 2e7;
 
 impl Model for GrainBed {
-    const INFO: ModelInfo = ModelInfo { name: "grains", table: "dem", stochastic: true };
+    const INFO: ModelInfo = ModelInfo::new("dem").taking(&["width"]).stochastic();
     type Scene = GranularScene;
     type Table = GrainsTable;
-    type Tables = GrainsBedTables;
-
-    fn split(tables: &GrainsBedTables) -> (GranularScene, GrainsTable) {
-        let GrainsBedTables { grains, bed, flow, closures, discrete, check, limit, .. } = tables.clone();
-        let GrainFlow { slope, slope_definition, gravity, .. } = flow;
-        let (width, across) = if flow.side_walls { (Some(flow.width), None) } else { (None, Some(flow.width)) };
-        let (grains, contact) = touching(&grains, &closures.contact.0);
-        let scene = GranularScene {
-            grains,
-            bed: Bed::default(),
-            flow: GranularFlow { slope, slope_definition, gravity, width },
-        };
-        let table = GrainsTable {
-            layers: Some(bed.layers),
-            bottom: bed.bottom,
-            cell: GrainCell { length: flow.length, width: across },
-            smooth_walls: flow.smooth_walls,
-            closures: GrainLaws { contact },
-            discrete,
-            check,
-            limit,
-        };
-        (scene, table)
-    }
 
     fn build(scene: &GranularScene, table: &GrainsTable, faults: &mut Faults) -> Option<Self> {
         let GrainsTable { cell, closures, discrete, .. } = table;
-        let contact = closures.contact.of(&scene.grains, faults);
-        let layers = layers(table.layers, &scene.bed, scene.grains.diameter, faults);
-        let width = cell.across(scene.flow.width, faults);
+        let (d, walls) = (scene.grains.diameter, scene.flow.width.is_some());
+        let layers = layers(table.layers, &scene.bed, d, faults);
+        let weight = scene.grains.density * scene.flow.gravity;
+        let contact = closures.contact.of(&scene.grains, load(layers, weight, d), faults);
+        let [length, width] = cell.size(scene.flow.width, d, faults);
         let beta = scene.flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok();
-        let d = scene.grains.diameter;
-        let (layers, width) = (layers?, width?);
-        let count = layers * (cell.length / d) * (width / d);
+        let layers = layers?;
+        let count = layers * (length / d) * (width / d);
         let wide = |name: &'static str, length: f64, least: f64, faults: &mut Faults| {
             if length < least * d {
                 faults.push((name, BedFault::GrainRoom { name, value: length, least: least * d, most: 1e3 }));
             }
         };
-        wide("flow.length", cell.length, 4.0, faults);
-        wide("flow.width", width, if scene.flow.width.is_some() { 1.0 } else { 4.0 }, faults);
+        wide("cell.length", length, 4.0, faults);
+        wide(if walls { "flow.width" } else { "cell.width" }, width, if walls { 1.0 } else { 4.0 }, faults);
         let possible = (1.0..=MAX_GRAINS).contains(&count);
         if !possible {
             let name = "the number of mobile grains";
-            faults.push(("bed.layers", BedFault::GrainRoom { name, value: count, least: 1.0, most: MAX_GRAINS }));
+            faults.push(("layers", BedFault::GrainRoom { name, value: count, least: 1.0, most: MAX_GRAINS }));
         }
         Some(Self {
             d,
             rho_p: scene.grains.density,
             mobile: if possible { count.round() as usize } else { 1 },
             bottom: table.bottom,
-            size: [cell.length, width],
+            size: [length, width],
             side_walls: scene.flow.width.is_some(),
             smooth_walls: table.smooth_walls,
             beta: beta?,
@@ -144,22 +118,13 @@ impl Solve for GrainBed {
 }
 
 impl Model for Impact {
-    const INFO: ModelInfo = ModelInfo { name: "impact", table: "impact", stochastic: true };
+    const INFO: ModelInfo = ModelInfo::new("impact").taking(&["grains"]).stochastic();
     type Scene = BenchmarkScene;
     type Table = ImpactTable;
-    type Tables = ImpactTables;
-
-    fn split(tables: &ImpactTables) -> (BenchmarkScene, ImpactTable) {
-        let ImpactTables { grains, flow: motion, closures, discrete, check, limit, .. } = tables.clone();
-        let (grains, contact) = touching(&grains, &closures.contact.0);
-        let closures = GrainLaws { contact };
-        let table = ImpactTable { motion, closures, discrete, check, limit };
-        (BenchmarkScene { fluid: None, grains: Some(grains) }, table)
-    }
 
     fn build(scene: &BenchmarkScene, table: &ImpactTable, faults: &mut Faults) -> Option<Self> {
-        let grains = scene.grains?;
-        let contact = table.closures.contact.of(&grains, faults)?;
+        let grains = faults.needed("grains", scene.grains)?;
+        let contact = table.closures.contact.of(&grains, None, faults)?;
         Some(Self {
             d: grains.diameter,
             rho_p: grains.density,
@@ -189,22 +154,13 @@ impl Solve for Impact {
 }
 
 impl Model for Verification {
-    const INFO: ModelInfo = ModelInfo { name: "trial", table: "verification", stochastic: true };
+    const INFO: ModelInfo = ModelInfo::new("verification").taking(&["grains"]).stochastic();
     type Scene = BenchmarkScene;
     type Table = VerificationTable;
-    type Tables = VerificationTables;
-
-    fn split(tables: &VerificationTables) -> (BenchmarkScene, VerificationTable) {
-        let VerificationTables { grains, flow: motion, model, closures, discrete, check, limit, .. } = tables.clone();
-        let (grains, contact) = touching(&grains, &closures.contact.0);
-        let closures = GrainLaws { contact };
-        let table = VerificationTable { which: model.trial, motion, closures, discrete, check, limit };
-        (BenchmarkScene { fluid: None, grains: Some(grains) }, table)
-    }
 
     fn build(scene: &BenchmarkScene, table: &VerificationTable, faults: &mut Faults) -> Option<Self> {
-        let grains = scene.grains?;
-        let contact = table.closures.contact.of(&grains, faults)?;
+        let grains = faults.needed("grains", scene.grains)?;
+        let contact = table.closures.contact.of(&grains, None, faults)?;
         Some(Self {
             case: table.which,
             d: grains.diameter,

@@ -4,44 +4,31 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{equations, run, study};
-use crate::case::tables::{Bed, Fluid, Grains, only};
+
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::regularisation::Regularisation;
 use crate::closures::role::choice;
 use crate::closures::{dilatancy, friction};
 use crate::model::{
-    ClosedForm, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
-    Term, TermTest,
+    ClosedForm, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, OwnCase, Solve, SteadyDrive,
+    StudyPlan, Term, TermTest,
 };
-use crate::models::exact::bed::{BedDrag, BedLaws, Form, LaminarBed, LaminarFlow, laminar_bed};
+use crate::models::exact::bed::{BedDrag, BedLaws, Form, LaminarBed, einstein, laminar_bed};
 use crate::models::yielding::{RegularisationTable, YieldGrid, size};
+use crate::part;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::BedScene;
 use crate::units::significant;
-use crate::{part, tables};
-
-/// The model: a laminar bed, solved numerically.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct LaminarModel {
-    /// What kind of model: a laminar flow over a bed.
-    pub kind: LaminarKind,
-    /// One velocity for fluid and grains, or two.
-    pub form: Form,
-}
-
-only!(
-    /// A laminar flow over a bed, solved numerically.
-    LaminarKind,
-    Laminar
-);
 
 /// Laws of the laminar bed.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct LaminarClosures {
     /// Friction of the grains.
+    #[serde(default = "coulomb")]
     pub friction: LaminarFriction,
     /// Effective viscosity of the mixture.
+    #[serde(default = "einstein")]
     pub mixture_viscosity: MixtureViscosity,
     /// Drag between the phases; only the two-fluid form has it.
     #[serde(default)]
@@ -49,6 +36,21 @@ pub struct LaminarClosures {
     /// Solid fraction of sheared grains; only with friction by mu(I_v).
     #[serde(default)]
     pub dilatancy: LaminarDilatancy,
+}
+
+fn coulomb() -> LaminarFriction {
+    LaminarFriction::Coulomb(friction::Coulomb::default())
+}
+
+impl Default for LaminarClosures {
+    fn default() -> Self {
+        Self {
+            friction: coulomb(),
+            mixture_viscosity: einstein(),
+            drag: BedDrag::default(),
+            dilatancy: LaminarDilatancy::default(),
+        }
+    }
 }
 
 choice! {
@@ -83,36 +85,14 @@ impl From<&LaminarClosures> for BedLaws {
     }
 }
 
-tables! {
-    /// Laminar flow over a bed of grains between two planes: regularised, or with the exact yield.
-    pub struct LaminarTables {
-        /// The fluid.
-        fluid: Fluid,
-        /// The grains.
-        grains: Grains,
-        /// The bed.
-        bed: Bed,
-        /// Geometry and drive.
-        flow: LaminarFlow,
-        /// The model.
-        model: LaminarModel,
-        /// Laws.
-        closures: LaminarClosures,
-        /// How the yield stress is smoothed.
-        #[serde(default)]
-        regularisation: RegularisationTable,
-        /// Cells of the solver.
-        #[serde(default)]
-        grid: YieldGrid,
-    }
-}
-
 part! {
     /// Laminar flow over a bed of grains between two planes: regularised, or with the exact yield.
     pub struct Laminar {
         /// One velocity for fluid and grains, or two.
+        #[serde(default)]
         form: Form,
         /// Laws.
+        #[serde(default)]
         closures: LaminarClosures,
         /// How the yield stress is smoothed.
         #[serde(default)]
@@ -135,17 +115,9 @@ pub struct RegularisedBed {
 }
 
 impl Model for OnMesh<RegularisedBed> {
-    const INFO: ModelInfo = ModelInfo { name: "laminar", table: "laminar", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("laminar").taking(&["pressure_gradient", "shields"]).under(&["plane"]);
     type Scene = BedScene;
     type Table = Laminar;
-    type Tables = LaminarTables;
-
-    fn split(tables: &LaminarTables) -> (BedScene, Laminar) {
-        let LaminarTables { fluid, grains, bed, flow, model, closures, regularisation, grid, check, limit, .. } =
-            tables.clone();
-        let table = Laminar { form: model.form, closures, regularisation, grid, check, limit };
-        (flow.over((&fluid, &grains, &bed)), table)
-    }
 
     fn build(scene: &BedScene, table: &Laminar, faults: &mut Faults) -> Option<Self> {
         let Laminar { form, closures, grid, .. } = table;
@@ -168,8 +140,7 @@ impl Model for OnMesh<RegularisedBed> {
         Some(Offer {
             effort: Effort::Milliseconds,
             because: format!("friction or solid fraction change with the shear rate: no closed form; {form}"),
-            template: "laminar_1d_muiv",
-            overrides: None,
+            case: OwnCase::Scene(Vec::new()),
         })
     }
 }

@@ -3,74 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::case::tables::{Bed, BinghamFluid, Fluid, Grains, Shape, only};
 use crate::models::exact::bed::{BedClosures, Form};
 use crate::models::yielding::RegularisationTable;
-use crate::{part, tables};
-
-/// A duct that a pressure gradient drives a yield-stress fluid through.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DuctFlow {
-    /// Outline of the cross-section.
-    pub shape: Shape,
-    /// Flow height H: height of a rectangle, diameter of a circle.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub height: f64,
-    /// Width of a rectangle; left out, it is a square.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
-    pub width: Option<f64>,
-    /// Drive: fall of pressure along the flow, -dp/dx.
-    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
-    pub pressure_gradient: f64,
-}
-
-/// A duct with a bed of grains in its lower part.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BedFlow {
-    /// Outline of the cross-section.
-    pub shape: Shape,
-    /// Flow height H: height of a rectangle, diameter of a circle, bed included.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub height: f64,
-    /// Width of a rectangle; left out, it is a square.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e5))]
-    pub width: Option<f64>,
-    /// Drive: fall of pressure along the flow, -dp/dx.
-    #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
-    pub pressure_gradient: f64,
-    /// Acceleration of gravity.
-    #[serde(default = "gravity")]
-    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
-    pub gravity: f64,
-}
-
-/// The model: a yield-stress fluid in the cross-section of a duct.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct DuctModel {
-    /// What kind of model: a flow in a two-dimensional section.
-    pub kind: SectionKind,
-    /// A yield-stress fluid along a duct.
-    pub solution: DuctSolution,
-    /// How the minimum is found.
-    #[serde(default)]
-    pub method: Method,
-}
-
-/// The model: a fluid over a bed of grains in the cross-section of a duct.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct BedModel {
-    /// What kind of model: a flow in a two-dimensional section.
-    pub kind: SectionKind,
-    /// A fluid over a bed of grains along a duct.
-    pub solution: BedSolution,
-    /// One velocity for fluid and grains, or two.
-    pub form: Form,
-    /// How the minimum is found.
-    #[serde(default)]
-    pub method: Method,
-}
+use crate::part;
 
 /// A square cavity under a lid that slides.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -83,18 +18,6 @@ pub struct CavityFlow {
     pub lid_velocity: f64,
 }
 
-/// The model: a yield-stress fluid in a square cavity under a lid that slides.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CavityModel {
-    /// What kind of model: a flow in a two-dimensional section.
-    pub kind: SectionKind,
-    /// A yield-stress fluid in a square cavity, without inertia.
-    pub solution: CavitySolution,
-    /// How the minimum is found.
-    #[serde(default)]
-    pub method: Method,
-}
-
 /// How the convex minimum is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -105,28 +28,6 @@ pub enum Method {
     /// Accelerated ascent of the dual with the exact yield: one factorisation, few digits.
     FirstOrder,
 }
-
-only!(
-    /// A flow in a two-dimensional section.
-    SectionKind,
-    Section
-);
-only!(
-    /// A yield-stress fluid along a duct.
-    DuctSolution,
-    Duct
-);
-only!(
-    /// A fluid over a bed of grains along a duct.
-    BedSolution,
-    Bed
-);
-
-only!(
-    /// A yield-stress fluid in a square cavity, without inertia.
-    CavitySolution,
-    Cavity
-);
 
 /// Cells of a cavity.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -196,9 +97,6 @@ impl Default for SectionSolver {
     }
 }
 
-fn gravity() -> f64 {
-    9.81
-}
 fn cells() -> usize {
     32
 }
@@ -213,75 +111,6 @@ fn tolerance() -> f64 {
 }
 fn iterations() -> usize {
     20_000
-}
-
-tables! {
-    /// Yield-stress fluid along a duct, in its cross-section.
-    pub struct DuctTables {
-        /// The material.
-        fluid: BinghamFluid,
-        /// Geometry and drive.
-        flow: DuctFlow,
-        /// The model.
-        model: DuctModel,
-        /// How the yield stress is smoothed.
-        #[serde(default)]
-        regularisation: RegularisationTable,
-        /// Elements of the section.
-        #[serde(default)]
-        grid: SectionGrid,
-        /// The first-order method.
-        #[serde(default)]
-        solver: SectionSolver,
-    }
-}
-
-tables! {
-    /// Laminar flow along a duct over a bed of grains, in its cross-section.
-    pub struct DuctBedTables {
-        /// The fluid.
-        fluid: Fluid,
-        /// The grains.
-        grains: Grains,
-        /// The bed.
-        bed: Bed,
-        /// Geometry and drive.
-        flow: BedFlow,
-        /// The model.
-        model: BedModel,
-        /// Laws.
-        closures: BedClosures,
-        /// How the yield stress is smoothed.
-        #[serde(default)]
-        regularisation: RegularisationTable,
-        /// Elements of the section.
-        #[serde(default)]
-        grid: SectionGrid,
-        /// The first-order method.
-        #[serde(default)]
-        solver: SectionSolver,
-    }
-}
-
-tables! {
-    /// Slow flow of a yield-stress fluid in a square cavity under a sliding lid.
-    pub struct CavityTables {
-        /// The material.
-        fluid: BinghamFluid,
-        /// Geometry and drive.
-        flow: CavityFlow,
-        /// The model.
-        model: CavityModel,
-        /// How the yield stress is smoothed.
-        #[serde(default)]
-        regularisation: RegularisationTable,
-        /// Cells of the cavity.
-        #[serde(default)]
-        grid: CavityGrid,
-        /// The first-order method.
-        #[serde(default)]
-        solver: SectionSolver,
-    }
 }
 
 part! {
@@ -306,11 +135,13 @@ part! {
     /// Laminar flow along a duct over a bed of grains, in its cross-section.
     pub struct DuctBedTable {
         /// One velocity for fluid and grains, or two.
+        #[serde(default)]
         form: Form,
         /// How the minimum is found.
         #[serde(default)]
         method: Method,
         /// Laws.
+        #[serde(default)]
         closures: BedClosures,
         /// How the yield stress is smoothed.
         #[serde(default)]

@@ -49,11 +49,11 @@ impl CaseFault for SectionFault {
 
     fn hint(&self) -> Option<String> {
         match self {
-            Self::NoWidth => Some("remove it, or set flow.shape = \"rectangle\"".into()),
+            Self::NoWidth => Some("remove it, or set flow.section.shape = \"rectangle\"".into()),
             Self::Slender { .. } => Some("shape = \"planes\" is the limit of a wide section".into()),
             Self::DualIsExact => None,
             Self::NotWhole => {
-                Some("remove it: `--set grid.along=`; model.form = \"mixed\" and method = \"newton\" have it".into())
+                Some("remove it: `--set grid.along=`; form = \"mixed\" and method = \"newton\" have it".into())
             }
         }
     }
@@ -92,6 +92,6 @@ impl MethodError for SectionError {
     }
 
     fn hint(&self) -> String {
-        "take model.method = \"newton\", raise solver.iterations or solver.tolerance, or change grid.cells".into()
+        "take method = \"newton\", raise solver.iterations or solver.tolerance, or change grid.cells".into()
     }
 }

@@ -1,19 +1,16 @@
 //! A flow along a duct, in its cross-section.
 
-use super::case::{
-    BedModel, CavityTable, CavityTables, DuctBedTable, DuctBedTables, DuctTable, DuctTables, Method, SectionGrid,
-    SectionSolver,
-};
+use super::case::{CavityTable, DuctBedTable, DuctTable, Method, SectionGrid, SectionSolver};
 use super::{cavity_equations, equations, run, run_cavity, study};
 use crate::case::tables::Shape;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
-use crate::models::exact::bed::{LaminarBed, between_planes, laminar_bed};
+use crate::models::exact::bed::{LaminarBed, laminar_bed};
 use crate::models::section::SectionFault;
 use crate::models::yielding::size;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
-use crate::scene::{BedScene, BenchmarkScene, ChannelFlow, ChannelScene, Section};
+use crate::scene::{BedScene, BenchmarkScene, ChannelScene, Section};
 
 /// Outline of a section whose height is 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,13 +146,13 @@ fn outline(section: Section, height: f64, faults: &mut Faults) -> Option<Outline
         (Shape::Rectangle, None) => Some(Outline::Rectangle { width: 1.0 }),
         (Shape::Rectangle, Some(width)) if (WIDTHS.0..=WIDTHS.1).contains(&width) => Some(Outline::Rectangle { width }),
         (Shape::Rectangle, Some(width)) => {
-            faults.push(("flow.width", SectionFault::Slender { ratio: width, low: WIDTHS.0, high: WIDTHS.1 }));
+            faults.push(("flow.section.width", SectionFault::Slender { ratio: width, low: WIDTHS.0, high: WIDTHS.1 }));
             None
         }
         (Shape::Circle, None) => Some(Outline::Circle),
         (Shape::Planes, None) => Some(Outline::Planes),
         (Shape::Circle | Shape::Planes, Some(_)) => {
-            faults.push(("flow.width", SectionFault::NoWidth));
+            faults.push(("flow.section.width", SectionFault::NoWidth));
             None
         }
     }
@@ -169,7 +166,7 @@ fn solver(
     faults: &mut Faults,
 ) -> Option<SectionMethod> {
     if method == Method::FirstOrder && law != Smoothing::None {
-        faults.push(("model.method", SectionFault::DualIsExact));
+        faults.push(("method", SectionFault::DualIsExact));
         return None;
     }
     Some(SectionMethod {
@@ -190,23 +187,14 @@ pub struct Duct(pub OnMesh<DuctFlow>);
 pub struct DuctBed(pub OnMesh<DuctFlow>);
 
 impl Model for Duct {
-    const INFO: ModelInfo = ModelInfo { name: "section/duct", table: "duct", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("duct").taking(&["pressure_gradient", "section", "yield_stress"]);
     type Scene = ChannelScene;
     type Table = DuctTable;
-    type Tables = DuctTables;
-
-    fn split(tables: &DuctTables) -> (ChannelScene, DuctTable) {
-        let DuctTables { fluid, flow, model, regularisation, grid, solver, check, limit, .. } = tables.clone();
-        let section = Some(Section { shape: flow.shape, width: flow.width });
-        let pressure_gradient = Some(flow.pressure_gradient);
-        let flow = ChannelFlow { section, pressure_gradient, ..ChannelFlow::new(flow.height) };
-        let table = DuctTable { method: model.method, regularisation, grid, solver, check, limit };
-        (ChannelScene { fluid: (&fluid).into(), flow }, table)
-    }
 
     fn build(scene: &ChannelScene, tables: &DuctTable, faults: &mut Faults) -> Option<Self> {
         let ChannelScene { fluid, flow } = scene;
-        let outline = outline(flow.section?, flow.depth, faults);
+        let section = faults.needed("flow.section", flow.section);
+        let outline = outline(section?, flow.depth, faults);
         let solver = solver(tables.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
         let size = size(&tables.regularisation, faults);
         let contents = Contents::Bingham { rho: fluid.density, eta: fluid.viscosity, tau_0: fluid.yield_stress };
@@ -227,32 +215,23 @@ impl Model for Duct {
 }
 
 impl Model for DuctBed {
-    const INFO: ModelInfo = ModelInfo { name: "section/bed", table: "duct-bed", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("duct-bed").taking(&["pressure_gradient", "section"]).under(&["plane"]);
     type Scene = BedScene;
     type Table = DuctBedTable;
-    type Tables = DuctBedTables;
-
-    fn split(tables: &DuctBedTables) -> (BedScene, DuctBedTable) {
-        let DuctBedTables {
-            fluid, grains, bed, flow, model, closures, regularisation, grid, solver, check, limit, ..
-        } = tables.clone();
-        let mut scene = between_planes((&fluid, &grains, &bed), flow.height, flow.gravity);
-        scene.flow.section = Some(Section { shape: flow.shape, width: flow.width });
-        scene.flow.pressure_gradient = Some(flow.pressure_gradient);
-        let BedModel { form, method, .. } = model;
-        (scene, DuctBedTable { form, method, closures, regularisation, grid, solver, check, limit })
-    }
 
     fn build(scene: &BedScene, tables: &DuctBedTable, faults: &mut Faults) -> Option<Self> {
-        let height = scene.bed.thickness? + scene.flow.depth?;
         let bed = laminar_bed(scene, (&tables.closures).into(), tables.form, Self::INFO.name, faults);
-        let outline = outline(scene.flow.section?, height, faults);
+        // Without a section the planes of the scene have no side walls.
+        let section = scene.flow.section.unwrap_or(Section { shape: Shape::Planes, width: None });
+        let gradient = faults.needed("flow.pressure_gradient", scene.flow.pressure_gradient);
+        let height = scene.bed.thickness? + scene.flow.depth?;
+        let outline = outline(section, height, faults);
         let solver = solver(tables.method, tables.regularisation.law, &tables.grid, &tables.solver, faults);
         let size = size(&tables.regularisation, faults);
         let mut duct = DuctFlow {
             outline: outline?,
             h: height,
-            gradient: scene.flow.pressure_gradient?,
+            gradient: gradient?,
             contents: Contents::Bed(bed?),
             regularisation: Regularisation::EXACT,
             solver: solver?,
@@ -336,20 +315,12 @@ impl Solve for OnMesh<DuctFlow> {
 }
 
 impl Model for OnMesh<CavityFlow> {
-    const INFO: ModelInfo = ModelInfo { name: "section/cavity", table: "cavity", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("cavity").taking(&["fluid"]);
     type Scene = BenchmarkScene;
     type Table = CavityTable;
-    type Tables = CavityTables;
-
-    fn split(tables: &CavityTables) -> (BenchmarkScene, CavityTable) {
-        let CavityTables { fluid, flow: geometry, model, regularisation, grid, solver, check, limit, .. } =
-            tables.clone();
-        let table = CavityTable { geometry, method: model.method, regularisation, grid, solver, check, limit };
-        (BenchmarkScene { fluid: Some((&fluid).into()), grains: None }, table)
-    }
 
     fn build(scene: &BenchmarkScene, tables: &CavityTable, faults: &mut Faults) -> Option<Self> {
-        let (fluid, CavityTable { geometry: flow, grid, .. }) = (scene.fluid?, tables);
+        let (fluid, CavityTable { geometry: flow, grid, .. }) = (faults.needed("fluid", scene.fluid)?, tables);
         let grid = SectionGrid { cells: grid.cells, yield_row: false, finest: grid.finest, along: None };
         let solver = solver(tables.method, tables.regularisation.law, &grid, &tables.solver, faults);
         let lambda = size(&tables.regularisation, faults)?.to_scaled(flow.lid_velocity / flow.height);

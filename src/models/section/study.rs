@@ -6,7 +6,7 @@ use crate::models::yielding::{LAMBDAS, OVER_A_BED, PLANES, SCALED, finest, first
 use crate::result::quantity as q;
 
 /// In a section Newton's method alone takes a regularisation.
-const IN_SECTION: Sizes = Sizes { changes: &["model.method=newton", "regularisation.lambda="], ..SCALED };
+const IN_SECTION: Sizes = Sizes { changes: &["method=newton", "regularisation.lambda="], ..SCALED };
 
 const SECTION: Meshes = Meshes {
     cells: &[12, 24, 48, 96],
@@ -28,14 +28,14 @@ const WHOLE_DUCT: Meshes = Meshes {
 };
 
 pub(super) fn plan(focus: Focus, whole: bool) -> StudyPlan {
-    let newton = "model.method=newton".to_owned();
+    let newton = "method=newton".to_owned();
     let exact = focus.sizes.map(|sizes| sizes.exactly()).unwrap_or_default();
     let rungs = match focus.sizes {
         // The whole duct costs so much that its rungs are few.
         _ if whole => [8, 12, 16, 20].map(|cells| Rung::cells("whole duct", cells, &[])).to_vec(),
         Some(sizes) => {
             let newton = [vec![newton.clone()], exact.clone()].concat();
-            let first = [vec!["model.method=first-order".to_owned()], exact.clone()].concat();
+            let first = [vec!["method=first-order".to_owned()], exact.clone()].concat();
             let dual = [12, 24, 48].map(|cells| Rung::cells("first-order", cells, &first));
             let newton = [8, 12, 24, 48, 96].map(|cells| Rung::cells("Newton, exact yield", cells, &newton));
             [newton.to_vec(), dual.to_vec(), regularised(&sizes, 2, &LAMBDAS, &[12, 24, 48])].concat()

@@ -7,8 +7,8 @@ use crate::case::tables::Grid;
 use crate::closures::kinetic;
 use crate::closures::kinetic::radial::PHI_MAX;
 use crate::closures::role::choice;
-use crate::models::two_fluid::CollidingGrains;
-use crate::{part, tables};
+
+use crate::part;
 
 /// The gap between the walls and the grains in it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -41,21 +41,6 @@ fn phi_max() -> f64 {
     PHI_MAX
 }
 
-/// The model: grains that collide between two walls.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct ShearCellModel {
-    /// What kind of model: grains that collide between two walls, without fluid or gravity.
-    pub kind: ShearCellKind,
-}
-
-/// Grains that collide between two walls.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum ShearCellKind {
-    /// Grains that collide between two walls, without fluid or gravity.
-    ShearCell,
-}
-
 /// Laws of the grains between the walls.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct ShearCellClosures {
@@ -68,23 +53,6 @@ choice! {
     pub enum Colliding from kinetic {
         garzo_dufty::GarzoDufty(..),
         frictional_collisional::FrictionalCollisional(..),
-    }
-}
-
-tables! {
-    /// Grains that collide between two walls, without fluid or gravity.
-    pub struct ShearCellTables {
-        /// The grains.
-        grains: CollidingGrains,
-        /// The gap between the walls, and what they do to the grains.
-        flow: ShearCell,
-        /// The model.
-        model: ShearCellModel,
-        /// Laws.
-        closures: ShearCellClosures,
-        /// Levels of the profile.
-        #[serde(default)]
-        grid: Grid,
     }
 }
 

@@ -1,6 +1,6 @@
 //! Problems of grains between two walls that move.
 
-use super::case::{Colliding, ShearCellTable, ShearCellTables};
+use super::case::{Colliding, ShearCellTable};
 use super::{equations, run, study};
 use crate::case::Fault;
 use crate::closures::Info;
@@ -35,28 +35,21 @@ pub struct ShearCell {
 }
 
 impl Model for OnMesh<ShearCell> {
-    const INFO: ModelInfo = ModelInfo { name: "shear-cell", table: "shear-cell", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("shear-cell").taking(&["grains"]);
     type Scene = BenchmarkScene;
     type Table = ShearCellTable;
-    type Tables = ShearCellTables;
-
-    fn split(tables: &ShearCellTables) -> (BenchmarkScene, ShearCellTable) {
-        let ShearCellTables { grains, flow: geometry, closures, grid, check, limit, .. } = tables.clone();
-        let scene = BenchmarkScene { fluid: None, grains: Some((&grains).into()) };
-        (scene, ShearCellTable { geometry, closures, grid, check, limit })
-    }
 
     fn build(scene: &BenchmarkScene, table: &ShearCellTable, faults: &mut Faults) -> Option<Self> {
-        let (grains, ShearCellTable { geometry: flow, closures, .. }) = (scene.grains?, table);
+        let (grains, ShearCellTable { geometry: flow, closures, .. }) = (faults.needed("grains", scene.grains)?, table);
         if flow.phi >= flow.phi_max {
-            let allowed = format!("less than flow.phi_max = {}", flow.phi_max);
-            faults.push(("flow.phi", Fault::OutOfRange { name: "phi".into(), value: flow.phi, allowed }));
+            let allowed = format!("less than geometry.phi_max = {}", flow.phi_max);
+            faults.push(("geometry.phi", Fault::OutOfRange { name: "phi".into(), value: flow.phi, allowed }));
         }
         if flow.height < grains.diameter {
             let fault = BedFault::ThinnerThanAGrain { level: flow.height, diameter: grains.diameter };
-            faults.push(("flow.height", fault));
+            faults.push(("geometry.height", fault));
         }
-        let (e, mu_p) = (grains.restitution?, grains.friction?);
+        let (e, mu_p) = (grains.restitution().value(), grains.friction().value());
         let (granular, kinetic) = match closures.granular {
             Colliding::GarzoDufty(law) => (Granular::GarzoDufty(law), law.kinetic(e, mu_p)),
             Colliding::FrictionalCollisional(law) => (Granular::FrictionalCollisional(law), law.kinetic(e, mu_p)),

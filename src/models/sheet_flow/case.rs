@@ -3,95 +3,16 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::case::tables::SlopeDefinition;
-use crate::case::tables::{Fluid, Grains};
 use crate::closures::dilatancy::PhiI;
 use crate::closures::drag::Dallavalle;
 use crate::closures::friction::{FrictionLaw, MuI};
-use crate::closures::lid::Lid;
+
 use crate::closures::mixing_length::LiSawamoto;
-use crate::closures::mixture_viscosity::MixtureViscosity;
+use crate::closures::mixture_viscosity::{Boyer, MixtureViscosity};
 use crate::closures::rearrangement::Rearrangement;
 use crate::closures::role::Only;
-use crate::closures::suspension::Suspension;
-use crate::{part, tables};
-
-/// A bed that loosens and goes into suspension.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SheetBed {
-    /// Bed level h_p over the bottom of the bed, below the flow height; in the flow or before it, as reading says.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub level: f64,
-    /// What the bed level is.
-    #[serde(default)]
-    pub reading: BedReading,
-}
-
-/// What the bed level is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum BedReading {
-    /// The interface in the flow; the amount of grains follows.
-    #[default]
-    Final,
-    /// The top of the bed at rest, packed at phi_max; the amount of grains is conserved between bed and suspension, and the
-    /// interface in the flow follows.
-    Initial,
-}
-
-/// A turbulent flow over a bed. Exactly one drive: shields, u_star or slope; under a lid whose stress is solved for, the
-/// slope with one of the other two.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SheetFlowTable {
-    /// Flow height H over the bottom of the bed, bed included.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub height: f64,
-    /// Drive: wanted Shields number, the fluid stress at the bed level over (rho_p - rho_f) g d.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
-    pub shields: Option<f64>,
-    /// Drive: wanted friction velocity at the bed level.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
-    pub u_star: Option<f64>,
-    /// Drive: slope, as slope_definition says, or an angle.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
-    pub slope: Option<f64>,
-    /// What the number given as slope is. With a slope such as "2 deg" it is the angle.
-    #[serde(default = "sine")]
-    pub slope_definition: SlopeDefinition,
-    /// Acceleration of gravity.
-    #[serde(default = "gravity")]
-    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
-    pub gravity: f64,
-}
-
-fn sine() -> SlopeDefinition {
-    SlopeDefinition::Sine
-}
-
-fn gravity() -> f64 {
-    9.81
-}
-
-/// The model: two-layer sheet flow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct SheetModel {
-    /// What kind of model: a turbulent flow over a bed of grains that shear as dense granular flow.
-    pub kind: SheetKind,
-    /// How the discrete equations are solved.
-    #[serde(default)]
-    pub method: SheetMethod,
-}
-
-/// Two-layer sheet flow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum SheetKind {
-    /// A turbulent flow over a bed of grains that shear as dense granular flow.
-    SheetFlow,
-}
+use crate::closures::suspension::{Rouse, Suspension};
+use crate::part;
 
 /// How the discrete equations are solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -102,32 +23,6 @@ pub enum SheetMethod {
     Newton,
     /// The pseudo-time iteration of Revil-Baudard & Chauchat (2013), Appendix B; it needs a regularisation.
     Iteration,
-}
-
-/// Laws of the sheet flow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(bound = "")]
-#[schemars(bound = "")]
-pub struct SheetClosures<F: FrictionLaw = MuI> {
-    /// Friction of the grains.
-    pub friction: Only<F>,
-    /// Dilatancy of the grains.
-    pub dilatancy: Only<PhiI>,
-    /// Rearrangement time of the grains.
-    #[serde(default)]
-    pub rearrangement: Rearrangement,
-    /// Effective viscosity of the mixture.
-    pub mixture_viscosity: MixtureViscosity,
-    /// Drag between the phases.
-    pub drag: Only<Dallavalle>,
-    /// Mixing length of the turbulence.
-    pub mixing_length: Only<LiSawamoto>,
-    /// Grains in suspension.
-    #[serde(default)]
-    pub suspension: Suspension,
-    /// Top of the flow.
-    #[serde(default)]
-    pub lid: Lid,
 }
 
 /// Small numbers of the sheet flow.
@@ -206,7 +101,7 @@ pub struct SheetSolver {
     #[schemars(extend("x-unit" = "1", "minimum" = 1e-12, "maximum" = 1e-3))]
     pub tolerance: f64,
     /// Iterations after which the method gives up.
-    #[serde(rename = "turns", default = "max_iterations")]
+    #[serde(default = "max_iterations")]
     #[schemars(extend("minimum" = 1, "maximum" = 100_000_000))]
     pub max_iterations: usize,
 }
@@ -229,34 +124,6 @@ impl Default for SheetSolver {
     }
 }
 
-tables! {
-    /// Turbulent flow over a bed of grains that shear as dense granular flow, with a suspension above.
-    #[schemars(rename = "SheetFlowTables")]
-    pub struct SheetFlowTables<F: FrictionLaw = MuI> {
-        /// The fluid.
-        fluid: Fluid,
-        /// The grains.
-        grains: Grains,
-        /// The bed.
-        bed: SheetBed,
-        /// Geometry and drive.
-        flow: SheetFlowTable,
-        /// The model.
-        model: SheetModel,
-        /// Laws.
-        closures: SheetClosures<F>,
-        /// Small numbers.
-        #[serde(default)]
-        regularisation: SheetRegularisation,
-        /// Cells of the column.
-        #[serde(default)]
-        grid: SheetGrid,
-        /// The iteration.
-        #[serde(default)]
-        solver: SheetSolver,
-    }
-}
-
 /// What the top of the bed is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
@@ -275,21 +142,49 @@ pub enum BedLevel {
 #[schemars(bound = "")]
 pub struct SheetLaws<F: FrictionLaw = MuI> {
     /// Friction of the grains.
+    #[serde(default)]
     pub friction: Only<F>,
     /// Dilatancy of the grains.
+    #[serde(default)]
     pub dilatancy: Only<PhiI>,
     /// Rearrangement time of the grains.
     #[serde(default)]
     pub rearrangement: Rearrangement,
     /// Effective viscosity of the mixture.
+    #[serde(default = "boyer")]
     pub mixture_viscosity: MixtureViscosity,
     /// Drag between the phases.
+    #[serde(default)]
     pub drag: Only<Dallavalle>,
     /// Mixing length of the turbulence.
+    #[serde(default)]
     pub mixing_length: Only<LiSawamoto>,
     /// Grains in suspension.
-    #[serde(default)]
+    #[serde(default = "rouse")]
     pub suspension: Suspension,
+}
+
+/// Viscosity of a bed of spheres that jams where they do.
+fn boyer() -> MixtureViscosity {
+    MixtureViscosity::Boyer(Boyer { phi_max: PhiI::default().phi_max })
+}
+
+fn rouse() -> Suspension {
+    Suspension::Rouse(Rouse { settling_velocity: None })
+}
+
+impl<F: FrictionLaw> Default for SheetLaws<F> {
+    fn default() -> Self {
+        Self {
+            friction: Only::default(),
+            dilatancy: Only::default(),
+            rearrangement: Rearrangement::default(),
+            mixture_viscosity: boyer(),
+            drag: Only::default(),
+            mixing_length: Only::default(),
+            suspension: rouse(),
+        }
+    }
 }
 
 part! {
@@ -303,6 +198,7 @@ part! {
         #[serde(default)]
         method: SheetMethod,
         /// Laws.
+        #[serde(default)]
         closures: SheetLaws<F>,
         /// Small numbers.
         #[serde(default)]

@@ -1,4 +1,4 @@
-//! What joins the layers: drive, lid, and the reading that fixes the amount of grains.
+//! What joins the layers: drive, lid, and what the bed level is, which fixes the amount of grains.
 
 use super::bed::{self, STRIDE, State};
 use super::flow::Flow;
@@ -7,7 +7,7 @@ use super::newton::Column;
 use super::suspension::{Inflow, Meshes, Totals, march};
 use crate::closures::friction::FrictionLaw;
 use crate::closures::lid::{ColebrookWhite, Lid, Stress};
-use crate::models::sheet_flow::{BedReading, SheetFlow};
+use crate::models::sheet_flow::{BedLevel, SheetFlow};
 use crate::numerics::dual::{Dual, Real};
 
 /// The drive and the geometry, scaled.
@@ -24,7 +24,7 @@ pub struct Setting {
     /// bed level
     pub level: f64,
     /// what the bed level is
-    pub reading: BedReading,
+    pub bed_level: BedLevel,
 }
 
 /// Inputs of the layers above: phi, dilation and velocity at the interface, tau_b, sine, m, and the volume at rest.
@@ -72,7 +72,7 @@ impl Setting {
             lid,
             height: sheet.height / sheet.d,
             level: sheet.level / sheet.d,
-            reading: sheet.reading,
+            bed_level: sheet.bed_level,
         }
     }
 
@@ -115,7 +115,7 @@ impl Setting {
             (None, given) => sine - given.unwrap_or_default(),
         };
         let inflow = Self::inflow(flow, phi, d, u, (tau_b, sine, m + rest));
-        let needs_layer = matches!(self.lid, Lid::ColebrookWhite(_)) || self.reading == BedReading::Initial;
+        let needs_layer = matches!(self.lid, Lid::ColebrookWhite(_)) || self.bed_level == BedLevel::AtRest;
         let totals = if needs_layer {
             march(flow, meshes, &inflow, height, |_| {})
         } else {
@@ -127,9 +127,9 @@ impl Setting {
             (Lid::Solved, Some(given)) => sine - given,
             _ => tau_b - flow.fluid_weight(sine) * height + self.lid_stress(flow, &totals, &inflow),
         };
-        let amount = match self.reading {
-            BedReading::Final => h_p - self.level,
-            BedReading::Initial => m + rest + totals.volume - flow.dilatancy.phi_max * self.level,
+        let amount = match self.bed_level {
+            BedLevel::InFlow => h_p - self.level,
+            BedLevel::AtRest => m + rest + totals.volume - flow.dilatancy.phi_max * self.level,
         };
         [drive, lid, amount]
     }

@@ -6,7 +6,7 @@ use crate::closures::friction::FrictionLaw;
 use crate::closures::lid::Top;
 use crate::closures::mixing_length::{Length, li_sawamoto};
 use crate::closures::suspension::Settling;
-use crate::models::sheet_flow::{BedReading, SheetFlow, SheetMethod};
+use crate::models::sheet_flow::{BedLevel, SheetFlow, SheetMethod};
 use crate::units::{significant, stated};
 
 /// The equations that are solved, with their numbers.
@@ -21,9 +21,9 @@ pub fn equations<F: FrictionLaw>(sheet: &SheetFlow<F>) -> String {
         (Some(tau), None) => format!("τ_b = {} Pa: sin β follows", n(tau)),
         (None, sine) => format!("sin β = {}: τ_b follows", n(sine.unwrap_or_default())),
     };
-    let level = match sheet.reading {
-        BedReading::Final => format!("h_p = {} m; the amount of grains follows", n(sheet.level)),
-        BedReading::Initial => {
+    let level = match sheet.bed_level {
+        BedLevel::InFlow => format!("h_p = {} m; the amount of grains follows", n(sheet.level)),
+        BedLevel::AtRest => {
             format!("grains of {} m at φ_max, in the bed or in suspension; h_p follows", n(sheet.level))
         }
     };

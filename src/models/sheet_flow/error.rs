@@ -132,12 +132,12 @@ impl MethodError for SheetFlowError {
 
     fn hint(&self) -> String {
         match self {
-            Self::NothingAtRest { .. } => "lower the drive or the slope, or make the bed deeper (bed.level)",
+            Self::NothingAtRest { .. } => "lower the drive or the slope, or make the bed deeper (bed.thickness)",
             Self::Jammed { .. } => {
                 "raise the Shields number: hardly a grain moves; or lower it, if the bed is about to move as a whole"
             }
             Self::BedSuspended { .. } => {
-                "lower the drive, make the bed deeper (bed.level), or take grains that settle faster"
+                "lower the drive, make the bed deeper (bed.thickness), or take grains that settle faster"
             }
             Self::BedRunsAway { .. } => "lower the drive, or leave more room above the bed (flow.height)",
             Self::LidPushes { .. } => "raise the slope, or ask for a lower Shields number",

@@ -17,7 +17,7 @@ use crate::closures::friction::FrictionLaw;
 use crate::closures::lid::Lid;
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::rearrangement::Clock;
-use crate::models::sheet_flow::BedReading;
+use crate::models::sheet_flow::BedLevel;
 use crate::numerics::block_thomas::{self, Row};
 
 /// How the iteration goes on, and when it ends.
@@ -155,9 +155,9 @@ impl<F: FrictionLaw> Column<F> {
             (Some(_), ..) => state.sine = near(state.sine, weight * flow.delta),
             (None, ..) => state.tau_b = near(state.tau_b, flow.fluid_weight(state.sine) * height - lid),
         }
-        let m = match setting.reading {
-            BedReading::Final => (setting.level - state.d(0)) * flow.dilatancy.phi_max,
-            BedReading::Initial => flow.dilatancy.phi_max * setting.level - totals.volume,
+        let m = match setting.bed_level {
+            BedLevel::InFlow => (setting.level - state.d(0)) * flow.dilatancy.phi_max,
+            BedLevel::AtRest => flow.dilatancy.phi_max * setting.level - totals.volume,
         };
         state.m = near(state.m, m);
     }

@@ -27,7 +27,7 @@ mod suspension;
 #[cfg(test)]
 mod tests;
 
-pub use case::{BedReading, SheetMethod};
+pub use case::{BedLevel, SheetMethod};
 use equations::equations;
 pub use error::{SheetFlowError, SheetFlowFault};
 use outcome::run;

@@ -21,7 +21,7 @@ use crate::models::exact::bed_results::closure_name;
 use crate::models::exact::{balance, outcome};
 use crate::models::premises::outside;
 use crate::models::sheet_flow::SheetFlowError;
-use crate::models::sheet_flow::{BedReading, SheetFlow, SheetMethod};
+use crate::models::sheet_flow::{BedLevel, SheetFlow, SheetMethod};
 use crate::result::{
     Balance, Failure, NumericalError, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q,
 };
@@ -136,7 +136,7 @@ fn refuse<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &Lay
         return Err(SheetFlowError::LidPushes { stress_pa: layers.lid * sheet.stress_scale() });
     }
     let whole = flow.dilatancy.phi_max * sheet.level;
-    if sheet.reading == BedReading::Initial && layers.totals.volume * d >= whole {
+    if sheet.bed_level == BedLevel::AtRest && layers.totals.volume * d >= whole {
         return Err(SheetFlowError::BedSuspended { suspended_m: layers.totals.volume * d, bed_m: whole });
     }
     Ok(())
@@ -243,12 +243,12 @@ fn balances<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Balance>
     let carried = layers.s[n - 1] + layers.cells[n - 1].tau_p;
     let momentum = (carried - weight) / state.tau_b - 1.0;
     let whole = column.flow.dilatancy.phi_max * column.setting.level;
-    let (sediment, how) = match column.setting.reading {
-        BedReading::Initial => (
+    let (sediment, how) = match column.setting.bed_level {
+        BedLevel::AtRest => (
             (solid + layers.totals.volume) / whole - 1.0,
             "grains in the bed and in suspension against those of the bed at rest",
         ),
-        BedReading::Final => {
+        BedLevel::InFlow => {
             (solid / (state.m + state.rest) - 1.0, "integral of the solid fraction of the bed against its grains")
         }
     };

@@ -1,10 +1,8 @@
 //! A turbulent flow over a bed that shears: the two-layer sheet flow.
 
-use super::case::{
-    BedLevel, BedReading, SheetClosures, SheetFlowTables, SheetLaws, SheetMethod, SheetSmoothing, SheetTable,
-};
+use super::case::{BedLevel, SheetMethod, SheetSmoothing, SheetTable};
 use super::{equations, figures, run, study};
-use crate::case::Fault;
+
 use crate::closures::Info;
 use crate::closures::dilatancy::{self, PhiI};
 use crate::closures::drag::{self, Dallavalle};
@@ -16,15 +14,15 @@ use crate::closures::rearrangement::Rearrangement;
 use crate::closures::role::Only;
 use crate::closures::suspension::{Settling, Suspension};
 use crate::model::{
-    COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
-    Term, TermTest, TurbulentScene,
+    COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, OwnCase, Solve, SteadyDrive,
+    StudyPlan, Term, TermTest, TurbulentScene,
 };
 use crate::models::sheet_flow::SheetFlowFault;
-use crate::models::{BedFault, RegularisationSize, needed, solves};
+use crate::models::{BedFault, RegularisationSize};
 use crate::result::Context;
 use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
-use crate::scene::{Bed, BedFlow, BedScene, Grains};
+use crate::scene::BedScene;
 use crate::units::significant;
 
 /// How the pseudo-time iteration steps, and when it ends.
@@ -56,7 +54,7 @@ pub struct SheetFlow<F = MuI> {
     /// bed level \[m]
     pub level: f64,
     /// what the bed level is
-    pub reading: BedReading,
+    pub bed_level: BedLevel,
     /// wanted fluid stress at the bed level \[Pa]
     pub tau_b: Option<f64>,
     /// sine of the slope
@@ -105,67 +103,29 @@ impl<F: FrictionLaw> SheetFlow<F> {
 
 /// Largest deviation from the grains, 20 to 25.2 % more transport at Shields numbers from 0.2 to 1 (docs/kinetic.md).
 const ERROR: f64 = 0.26;
-/// Drives, and those that were given.
-const DRIVES: [&str; 3] = ["shields", "u_star", "slope"];
 
 impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
-    const INFO: ModelInfo = ModelInfo { name: "sheet-flow", table: "sheet-flow", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("sheet-flow").taking(&["slope", "shields", "u_star"]).under(&[
+        "free-surface",
+        "stress",
+        "solved",
+        "colebrook-white",
+    ]);
     type Scene = BedScene;
     type Table = SheetTable<F>;
-    type Tables = SheetFlowTables<F>;
-
-    fn split(tables: &SheetFlowTables<F>) -> (BedScene, SheetTable<F>) {
-        let SheetFlowTables {
-            fluid,
-            grains,
-            bed,
-            flow,
-            model,
-            closures,
-            regularisation,
-            grid,
-            solver,
-            check,
-            limit,
-            ..
-        } = tables.clone();
-        let SheetClosures { friction, dilatancy, rearrangement, mixture_viscosity, drag, mixing_length, .. } = closures;
-        let settling_velocity = closures.suspension.settling_velocity();
-        let bed_level = if bed.reading == BedReading::Final { BedLevel::InFlow } else { BedLevel::AtRest };
-        // The interface in the flow holds an amount of grains that is a result.
-        let phi = (bed_level == BedLevel::AtRest).then_some(dilatancy.0.phi_max);
-        let scene = BedScene {
-            fluid,
-            grains: Grains { settling_velocity, ..Grains::new(grains.diameter, grains.density) },
-            bed: Bed { thickness: Some(bed.level), phi },
-            flow: BedFlow {
-                depth: Some(flow.height - bed.level),
-                shields: flow.shields,
-                u_star: flow.u_star,
-                slope: flow.slope,
-                slope_definition: flow.slope.map(|_| flow.slope_definition),
-                ..BedFlow::new(closures.lid.into(), flow.gravity)
-            },
-        };
-        let suspension = closures.suspension.of_grains();
-        let closures =
-            SheetLaws { friction, dilatancy, rearrangement, mixture_viscosity, drag, mixing_length, suspension };
-        let method = model.method;
-        (scene, SheetTable { bed_level, method, closures, regularisation, grid, solver, check, limit })
-    }
 
     fn build(scene: &BedScene, table: &SheetTable<F>, faults: &mut Faults) -> Option<Self> {
         let BedScene { fluid, grains, flow, .. } = scene;
         let SheetTable { closures, regularisation, solver, .. } = table;
-        let level = needed("bed.thickness", scene.bed.thickness, faults);
-        let depth = needed("flow.depth", flow.depth, faults);
+        let level = faults.needed("bed.thickness", scene.bed.thickness);
+        let depth = faults.needed("flow.depth", scene.depth());
         let (level, depth) = (level?, depth?);
         let height = level + depth;
         if depth <= 0.0 {
-            faults.push(("bed.level", BedFault::NoRoomForFlow { level, height }));
+            faults.push(("flow.depth", BedFault::NoDepth));
         }
         if level < grains.diameter {
-            faults.push(("bed.level", BedFault::ThinnerThanAGrain { level, diameter: grains.diameter }));
+            faults.push(("bed.thickness", BedFault::ThinnerThanAGrain { level, diameter: grains.diameter }));
         }
         if grains.density <= fluid.density {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
@@ -177,25 +137,8 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             let fault = SheetFlowFault::PackedBeyond { law: "the viscosity", phi_max, bed: dilatancy.phi_max };
             faults.push(("closures.mixture_viscosity.phi_max", fault));
         }
-        let drives: Vec<String> = [flow.shields, flow.u_star, flow.slope]
-            .iter()
-            .zip(DRIVES)
-            .filter_map(|(given, name)| given.map(|_| name.to_owned()))
-            .collect();
-        const TOPS: [&str; 4] = ["free-surface", "stress", "solved", "colebrook-white"];
-        solves(Self::INFO.name, flow, &DRIVES, &TOPS, faults);
         let lid = flow.top.lid()?;
-        let solved = lid == Lid::Solved;
-        let complete = if solved { flow.slope.is_some() && drives.len() == 2 } else { drives.len() == 1 };
-        if !complete {
-            let allowed = if solved {
-                vec!["slope with shields".to_owned(), "slope with u_star".to_owned()]
-            } else {
-                DRIVES.iter().map(|&name| name.to_owned()).collect()
-            };
-            faults.push(("flow", Fault::Drives { given: drives, allowed }));
-        }
-        let sine = flow.sine().map_err(|fault| faults.push(("flow.slope", fault))).ok();
+        let sine = flow.sine().ok();
         let (mu_s, mu_2) = (friction.least(), friction.most());
         if mu_2 <= mu_s {
             faults.push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s, mu_2 }));
@@ -217,7 +160,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             }
         };
         if table.method == SheetMethod::Iteration && lambda == Some(0.0) {
-            faults.push(("model.method", SheetFlowFault::IterationNeedsCreep));
+            faults.push(("method", SheetFlowFault::IterationNeedsCreep));
         }
         let (lambda, sine) = (lambda?, sine?);
         let problem = SheetFlow {
@@ -228,8 +171,10 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             g: flow.gravity,
             height,
             level,
-            reading: if table.bed_level == BedLevel::InFlow { BedReading::Final } else { BedReading::Initial },
+            bed_level: table.bed_level,
+            // Where the depth follows from the stress, depth and slope are the drive, as for every model of this scene.
             tau_b: match (flow.shields, flow.u_star) {
+                _ if flow.depth.is_none() => None,
                 (Some(shields), _) => Some(shields * (grains.density - fluid.density) * flow.gravity * grains.diameter),
                 (None, Some(u_star)) => Some(fluid.density * u_star * u_star),
                 (None, None) => None,
@@ -270,15 +215,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             let [wanted, off] = [tolerance, ERROR].map(|share| format!("{} %", significant(100.0 * share, 2)));
             format!("θ = {theta}, and {wanted} is enough: it carries up to {off} more than the grains")
         };
-        let level = scene.bed_thickness();
-        let own = vec![
-            format!("flow.slope={:?}", scene.sine),
-            format!("closures.suspension.settling_velocity={:?}", scene.fall()),
-            format!("bed.level={level:?}"),
-            format!("flow.height={:?}", level + scene.depth),
-        ];
-        let overrides = (scene.kind != Self::INFO.name).then(|| [scene.matter(), own].concat());
-        Some(Offer { effort: Effort::Milliseconds, because, template: "sheet_1d_theta06", overrides })
+        Some(Offer { effort: Effort::Milliseconds, because, case: OwnCase::Scene(Vec::new()) })
     }
 }
 
@@ -300,7 +237,7 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
     }
 
     fn drive(&self) -> Option<SteadyDrive> {
-        Some(SteadyDrive::of(self.problem.velocity_scale(), "another model.method, or more grid.cells"))
+        Some(SteadyDrive::of(self.problem.velocity_scale(), "another method, or more grid.cells"))
     }
 
     fn cells(&self) -> usize {

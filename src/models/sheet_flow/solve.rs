@@ -9,7 +9,7 @@ use super::mesh::Mesh;
 use super::newton::{Column, NotConverged, Reason};
 use super::start::{Guess, TOP, mobile_volume};
 use crate::closures::friction::{FrictionLaw, MuI};
-use crate::models::sheet_flow::BedReading;
+use crate::models::sheet_flow::BedLevel;
 
 /// A coarse mesh and the first guess on it.
 #[derive(Clone, Copy)]
@@ -148,7 +148,7 @@ fn coarse<F: FrictionLaw>(
 ) -> Result<(Column<F>, State), NotConverged> {
     let open = Flow { cut: f64::INFINITY, lambda: 0.0, ..flow };
     // The amount of grains is found last.
-    let setting = Setting { reading: BedReading::Final, ..setting };
+    let setting = Setting { bed_level: BedLevel::InFlow, ..setting };
     if guess.is_none()
         && let Ok(eased) = ease(open, setting, cells, history)
     {
@@ -188,7 +188,7 @@ fn ease<F: FrictionLaw>(
     Ok((column, state))
 }
 
-/// From the coarse mesh to the wanted one, with the term, and to the wanted reading.
+/// From the coarse mesh to the wanted one, with the term, and to the wanted bed level.
 fn refine<F: FrictionLaw>(
     flow: Flow<F>,
     setting: Setting,
@@ -203,9 +203,9 @@ fn refine<F: FrictionLaw>(
     let all_move =
         NotConverged { reason: credible.then_some(Reason::AllMove), ..NotConverged::new(f64::INFINITY, history.len()) };
     let mobile = coarse.yield_volume(rough).ok_or(all_move)?;
-    let rest = match setting.reading {
-        BedReading::Final => rough.m + rough.rest - mobile,
-        BedReading::Initial => flow.dilatancy.phi_max * setting.level - mobile,
+    let rest = match setting.bed_level {
+        BedLevel::InFlow => rough.m + rough.rest - mobile,
+        BedLevel::AtRest => flow.dilatancy.phi_max * setting.level - mobile,
     };
     if rest <= 0.0 {
         return Err(all_move);
@@ -224,7 +224,7 @@ fn refine<F: FrictionLaw>(
         attempt = open.and_then(|state| column.newton(state, history));
     }
     let mut state = match attempt {
-        Err(_) if setting.reading == BedReading::Initial => column.rise(start, history)?,
+        Err(_) if setting.bed_level == BedLevel::AtRest => column.rise(start, history)?,
         other => other?,
     };
     let mut depth = column.change_of_type(&state);
@@ -319,7 +319,7 @@ impl<F: FrictionLaw> Column<F> {
     fn rise(&mut self, start: State, history: &mut Vec<f64>) -> Result<State, NotConverged> {
         let wanted = self.setting;
         let step = STEP * (wanted.height - wanted.level);
-        self.setting.reading = BedReading::Final;
+        self.setting.bed_level = BedLevel::InFlow;
         let mut state = self.newton(start, history)?;
         let found = loop {
             let missing = wanted.closing_residual(self, &state)[2];

@@ -17,7 +17,7 @@ fn ladder(sizes: &Sizes) -> Vec<Rung> {
     let exact = exact.map(|cells| Rung::cells("Newton, exact yield", cells, &sizes.exactly()));
     let smoothed = |series: &'static str, method: &str, meshes: &[usize]| -> Vec<Rung> {
         let all = regularised(sizes, 1, &LAMBDAS[..3], meshes).into_iter();
-        let method = [format!("model.method={method}")];
+        let method = [format!("method={method}")];
         all.map(|rung| Rung { series, changes: [&method[..], &rung.changes].concat(), ..rung }).collect()
     };
     let newton = smoothed("Newton, regularised", "newton", &[75, 300]);
@@ -26,7 +26,7 @@ fn ladder(sizes: &Sizes) -> Vec<Rung> {
 
 fn focus<F: FrictionLaw>(flow: &SheetFlow<F>) -> Focus {
     // The pseudo-time iteration needs a creep.
-    const EXACT: &[&str] = &["model.method=newton", "regularisation.law=none", "regularisation.lambda="];
+    const EXACT: &[&str] = &["method=newton", "regularisation.law=none", "regularisation.lambda="];
     // Under the exact yield the cells hold the moving grains only.
     const NUMBERS: &[Number] = &[
         Number { stated: Some(&q::REGULARISATION_RATE), ..number(&q::TRANSPORT_RATE, "transport_rate") },

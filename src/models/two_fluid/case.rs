@@ -1,114 +1,19 @@
 //! The tables that only a two-fluid flow has.
 
-use schemars::{JsonSchema, Schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::case::tables::{Fluid, Oscillation, SlopeDefinition, one_of};
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::kinetic::radial::PHI_MAX;
-use crate::closures::kinetic::{Elastic, Granular, StaticFriction};
-use crate::closures::mixing_length::MixingLength;
+use crate::closures::kinetic::{Elastic, FrictionalCollisional, Granular, StaticFriction};
+use crate::closures::mixing_length::{LiSawamoto, MixingLength};
 use crate::closures::role::Only;
-use crate::scene::Grains;
-use crate::{part, tables};
 
-/// Grains that collide.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct CollidingGrains {
-    /// Diameter of the grains.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 10.0))]
-    pub diameter: f64,
-    /// Density of the grains.
-    #[schemars(extend("x-unit" = "kg/m3", "exclusiveMinimum" = 0.0, "maximum" = 30000.0))]
-    pub density: f64,
-    /// Restitution coefficient of two grains.
-    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 1.0))]
-    pub restitution: f64,
-    /// Friction coefficient between two grains.
-    #[schemars(extend("x-unit" = "1", "minimum" = 0.0, "maximum" = 10.0))]
-    pub friction: f64,
-}
-
-impl From<&CollidingGrains> for Grains {
-    fn from(grains: &CollidingGrains) -> Self {
-        let CollidingGrains { diameter, density, restitution, friction } = *grains;
-        Self { restitution: Some(restitution), friction: Some(friction), ..Self::new(diameter, density) }
-    }
-}
-
-/// The grains at rest, before they flow.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct TwoFluidBed {
-    /// Thickness of the layer of grains at rest.
-    #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
-    pub thickness: f64,
-    /// Solid fraction of that layer: together they are the amount of grains, which is kept. Below phi_max.
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
-    pub phi: f64,
-    /// Solid fraction at which the grains jam: in the radial distribution function and in the elastic pressure.
-    #[serde(default = "phi_max")]
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 0.7405))]
-    pub phi_max: f64,
-}
+use crate::part;
 
 fn phi_max() -> f64 {
     PHI_MAX
-}
-
-/// A flow down a slope under a free surface. Exactly one of depth and shields.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[schemars(transform = depths)]
-pub struct TwoFluidFlow {
-    /// Depth of the fluid over the layer of grains at rest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m", "minimum" = 0.0, "maximum" = 1e4))]
-    pub depth: Option<f64>,
-    /// Nominal Shields number rho_f g depth sin(slope)/((rho_p - rho_f) g d); the depth that gives it follows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "1", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
-    pub shields: Option<f64>,
-    /// Drive: the slope, as slope_definition says, or an angle.
-    #[schemars(extend("x-unit" = "1", "x-angle" = "slope_definition", "minimum" = 0.0, "maximum" = 10.0))]
-    pub slope: f64,
-    /// What the number given as slope is: papers differ. With a slope such as "2 deg" it is the angle.
-    pub slope_definition: SlopeDefinition,
-    /// Acceleration of gravity.
-    #[serde(default = "gravity")]
-    #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
-    pub gravity: f64,
-    /// Waves: a pressure gradient that goes to and fro, besides the slope; only for a flow in time.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub oscillation: Option<Oscillation>,
-}
-
-fn gravity() -> f64 {
-    9.81
-}
-
-fn depths(schema: &mut Schema) {
-    one_of(schema, &["depth", "shields"]);
-}
-
-/// The model: two fluids, one of which is made of grains that collide.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct TwoFluidModel {
-    /// What kind of model: grains and fluid as two fluids, with the velocity fluctuations of the grains.
-    pub kind: TwoFluidKind,
-    /// Whether the steady flow is solved for, or the flow in time.
-    #[serde(default)]
-    pub state: State,
-    /// Whether the stress of the fluid carries the factor 1 - phi.
-    #[serde(default)]
-    pub fluid_stress: FluidStress,
-}
-
-/// Two fluids.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum TwoFluidKind {
-    /// Grains and fluid as two fluids, with the velocity fluctuations of the grains.
-    TwoFluid,
 }
 
 /// Whether the steady flow is solved for, or the flow in time.
@@ -137,6 +42,7 @@ pub enum FluidStress {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct TwoFluidClosures {
     /// Stresses of grains that move.
+    #[serde(default = "frictional_collisional")]
     pub granular: Granular,
     /// Pressure of enduring contacts.
     #[serde(default)]
@@ -145,12 +51,35 @@ pub struct TwoFluidClosures {
     #[serde(default)]
     pub static_friction: StaticFriction,
     /// Drag between the phases.
+    #[serde(default)]
     pub drag: Only<DallavalleGrain>,
     /// Mixing length of the turbulence.
+    #[serde(default = "li_sawamoto")]
     pub mixing_length: MixingLength,
     /// Grains that the turbulence carries.
     #[serde(default)]
     pub dispersion: Dispersion,
+}
+
+fn frictional_collisional() -> Granular {
+    Granular::FrictionalCollisional(FrictionalCollisional::default())
+}
+
+fn li_sawamoto() -> MixingLength {
+    MixingLength::LiSawamoto(LiSawamoto::default())
+}
+
+impl Default for TwoFluidClosures {
+    fn default() -> Self {
+        Self {
+            granular: frictional_collisional(),
+            elastic: Elastic::default(),
+            static_friction: StaticFriction::default(),
+            drag: Only::default(),
+            mixing_length: li_sawamoto(),
+            dispersion: Dispersion::default(),
+        }
+    }
 }
 
 /// Small numbers of the two fluids.
@@ -247,33 +176,6 @@ impl Default for TwoFluidGrid {
     }
 }
 
-tables! {
-    /// Grains that collide and the turbulent fluid that drives them, as two fluids of one dimension.
-    pub struct TwoFluidTables {
-        /// The fluid.
-        fluid: Fluid,
-        /// The grains.
-        grains: CollidingGrains,
-        /// The grains at rest.
-        bed: TwoFluidBed,
-        /// Geometry and drive.
-        flow: TwoFluidFlow,
-        /// The model.
-        model: TwoFluidModel,
-        /// Laws.
-        closures: TwoFluidClosures,
-        /// Small numbers.
-        #[serde(default)]
-        regularisation: TwoFluidRegularisation,
-        /// Cells of the column.
-        #[serde(default)]
-        grid: TwoFluidGrid,
-        /// The flow in time.
-        #[serde(default)]
-        solver: TwoFluidSolver,
-    }
-}
-
 part! {
     /// Grains that collide and the turbulent fluid that drives them, as two fluids of one dimension.
     pub struct TwoFluidTable {
@@ -288,6 +190,7 @@ part! {
         #[serde(default)]
         fluid_stress: FluidStress,
         /// Laws.
+        #[serde(default)]
         closures: TwoFluidClosures,
         /// Small numbers.
         #[serde(default)]

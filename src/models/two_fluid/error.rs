@@ -22,7 +22,7 @@ impl CaseFault for TwoFluidFault {
 
     fn hint(&self) -> Option<String> {
         match self {
-            Self::NeedsTime => Some("remove flow.oscillation, or set model.state = \"transient\"".into()),
+            Self::NeedsTime => Some("remove flow.oscillation, or set state = \"transient\"".into()),
         }
     }
 }
@@ -73,7 +73,7 @@ impl MethodError for TwoFluidError {
     fn hint(&self) -> String {
         match self {
             Self::NoSteadyFlow { .. } => {
-                "follow it in time (model.state = \"transient\"): near the threshold of motion the flow may have no steady state"
+                "follow it in time (state = \"transient\"): near the threshold of motion the flow may have no steady state"
             }
             Self::StuckInTime { .. } => {
                 "the flow until then is kept; take more cells (grid.cells) or a larger solver.tolerance"

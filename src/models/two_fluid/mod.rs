@@ -28,7 +28,7 @@ mod system;
 mod tests;
 mod transient;
 
-pub use case::{CollidingGrains, FluidStress, State};
+pub use case::{FluidStress, State};
 use equations::equations;
 pub use error::{TwoFluidError, TwoFluidFault};
 use outcome::run;

@@ -1,6 +1,6 @@
 //! Problems of grains and fluid as two fluids.
 
-use super::case::{FluidStress, State, TwoFluidFlow, TwoFluidModel, TwoFluidTable, TwoFluidTables};
+use super::case::{FluidStress, State, TwoFluidTable};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
 use crate::case::tables::Oscillation;
@@ -10,14 +10,14 @@ use crate::closures::kinetic::{Elastic, Granular, Moving, StaticFriction, Stress
 use crate::closures::mixing_length::{self, BelowPacked, MixingLength};
 use crate::closures::{Info, drag};
 use crate::model::{
-    BULK_FRICTION, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan,
-    TurbulentScene,
+    BULK_FRICTION, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, OwnCase, Solve, SteadyDrive,
+    StudyPlan, TurbulentScene,
 };
+use crate::models::BedFault;
 use crate::models::two_fluid::TwoFluidFault;
-use crate::models::{BedFault, needed, solves};
 use crate::result::Context;
 use crate::result::{Failure, Figure, Outcome};
-use crate::scene::{Bed, BedFlow, BedScene, Top};
+use crate::scene::BedScene;
 use crate::units::significant;
 
 /// How a flow is followed in time.
@@ -109,55 +109,16 @@ impl TwoFluid {
 }
 
 impl Model for OnMesh<TwoFluid> {
-    const INFO: ModelInfo = ModelInfo { name: "two-fluid", table: "two-fluid", stochastic: false };
+    const INFO: ModelInfo =
+        ModelInfo::new("two-fluid").taking(&["slope", "shields", "u_star", "oscillation"]).under(&["free-surface"]);
     type Scene = BedScene;
     type Table = TwoFluidTable;
-    type Tables = TwoFluidTables;
-
-    fn split(tables: &TwoFluidTables) -> (BedScene, TwoFluidTable) {
-        let TwoFluidTables {
-            fluid,
-            grains,
-            bed,
-            flow,
-            model,
-            closures,
-            regularisation,
-            grid,
-            solver,
-            check,
-            limit,
-            ..
-        } = tables.clone();
-        let TwoFluidFlow { depth, shields, slope, slope_definition, gravity, oscillation } = flow;
-        let scene = BedScene {
-            fluid,
-            grains: (&grains).into(),
-            bed: Bed { thickness: Some(bed.thickness), phi: Some(bed.phi) },
-            flow: BedFlow {
-                depth,
-                shields,
-                slope: Some(slope),
-                slope_definition: Some(slope_definition),
-                oscillation,
-                ..BedFlow::new(Top::FreeSurface, gravity)
-            },
-        };
-        let (TwoFluidModel { state, fluid_stress, .. }, phi_max) = (model, bed.phi_max);
-        (scene, TwoFluidTable { phi_max, state, fluid_stress, closures, regularisation, grid, solver, check, limit })
-    }
 
     fn build(scene: &BedScene, table: &TwoFluidTable, faults: &mut Faults) -> Option<Self> {
-        let BedScene { fluid, grains, flow, bed: Bed { thickness, phi } } = scene;
+        let BedScene { fluid, grains, flow, bed } = scene;
         let TwoFluidTable { closures, regularisation, solver, phi_max, .. } = table;
-        solves(Self::INFO.name, flow, &["oscillation", "shields", "slope"], &["free-surface"], faults);
-        let thickness = needed("bed.thickness", *thickness, faults);
-        let phi = needed("bed.phi", *phi, faults);
-        let slope = needed("flow.slope", flow.slope, faults);
-        let restitution = needed("grains.restitution", grains.restitution, faults);
-        let friction = needed("grains.friction", grains.friction, faults);
-        let (thickness, phi, phi_max, slope) = (thickness?, phi?, *phi_max, slope?);
-        let beta = flow.angle().map_err(|fault| faults.push(("flow.slope", fault))).ok().flatten();
+        let thickness = faults.needed("bed.thickness", bed.thickness);
+        let (thickness, phi, phi_max) = (thickness?, bed.phi().value(), *phi_max);
         if grains.density <= fluid.density {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
@@ -189,24 +150,8 @@ impl Model for OnMesh<TwoFluid> {
             };
             faults.push(("closures.mixing_length.below_packed", fault));
         }
-        let depth = match (flow.depth, flow.shields) {
-            (Some(depth), None) => Some(depth),
-            (None, Some(shields)) if slope > 0.0 => {
-                beta.map(|beta| shields * (grains.density / fluid.density - 1.0) * grains.diameter / beta.sin())
-            }
-            (None, Some(_)) => {
-                let allowed = "more than 0 where a Shields number is wanted".to_owned();
-                faults.push(("flow.slope", Fault::OutOfRange { name: "slope".into(), value: slope, allowed }));
-                None
-            }
-            (depth, shields) => {
-                let given = [depth.map(|_| "depth"), shields.map(|_| "shields")];
-                let given = given.into_iter().flatten().map(str::to_owned).collect();
-                let allowed = vec!["depth".to_owned(), "shields".to_owned()];
-                faults.push(("flow", Fault::Drives { given, allowed }));
-                None
-            }
-        };
+        // Neither is there where the drives of the scene are wrong, which it says itself.
+        let (depth, beta) = (scene.depth(), scene.slope());
         if flow.oscillation.is_some() && table.state == State::Steady {
             faults.push(("flow.oscillation", TwoFluidFault::NeedsTime));
         }
@@ -215,8 +160,8 @@ impl Model for OnMesh<TwoFluid> {
             eta: fluid.viscosity,
             rho_p: grains.density,
             d: grains.diameter,
-            e: restitution?,
-            mu_p: friction?,
+            e: grains.restitution().value(),
+            mu_p: grains.friction().value(),
             thickness,
             phi,
             phi_max,
@@ -252,19 +197,10 @@ impl Model for OnMesh<TwoFluid> {
         }
         let [wanted, off] = [tolerance, MEASURED.1].map(|share| format!("{} %", significant(100.0 * share, 2)));
         let theta = significant(scene.theta, 3);
-        let mut own = vec![
-            format!("bed.thickness={:?}", scene.bed_thickness()),
-            format!("flow.shields={:?}", scene.theta),
-            format!("flow.slope={:?}", scene.sine),
-        ];
-        if let Some((mu, e)) = scene.contacts {
-            own.extend([format!("grains.friction={mu:?}"), format!("grains.restitution={e:?}")]);
-        }
         Some(Offer {
             effort: Effort::Seconds,
             because: format!("θ = {theta}, and {wanted} is enough: it is within {off} of the grains"),
-            template: "kinetic_1d_theta06",
-            overrides: (scene.kind != Self::INFO.name).then(|| [scene.matter(), own].concat()),
+            case: OwnCase::Scene(Vec::new()),
         })
     }
 }
@@ -289,7 +225,7 @@ impl Solve for OnMesh<TwoFluid> {
     fn drive(&self) -> Option<SteadyDrive> {
         let flow = &self.problem;
         let (at_s, hint) = match flow.state {
-            State::Steady => (None, "model.state = \"transient\", which follows the flow from rest"),
+            State::Steady => (None, "state = \"transient\", which follows the flow from rest"),
             State::Transient => (Some(flow.time.duration), "a smaller solver.tolerance, or more grid.cells"),
         };
         let steady = flow.beta > 0.0 && flow.oscillation.is_none();
@@ -328,7 +264,7 @@ impl Solve for OnMesh<TwoFluid> {
 
 /// A solid fraction that is not below that of jammed grains.
 fn below(name: &str, value: f64, phi_max: f64) -> Fault {
-    Fault::OutOfRange { name: name.into(), value, allowed: format!("less than bed.phi_max = {phi_max}") }
+    Fault::OutOfRange { name: name.into(), value, allowed: format!("less than two-fluid.phi_max = {phi_max}") }
 }
 
 fn laws(flow: &TwoFluid) -> Vec<&'static Info> {

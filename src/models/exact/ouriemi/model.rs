@@ -1,62 +1,23 @@
 //! The case of the closed form.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
-
 use super::{equations, run};
-use crate::case::tables::{Bed, Fluid, Grains, Grid, only};
-use crate::model::{Description, Effort, Faults, Flow, LaminarScene, Model, ModelInfo, Offer, OnMesh, Solve, Term};
-use crate::models::exact::ExactKind;
-use crate::models::exact::bed::{BedClosures, Form, LaminarBed, LaminarFlow, laminar_bed};
+use crate::case::tables::Grid;
+use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, OwnCase, Solve, Term};
+
+use crate::models::exact::bed::{BedClosures, Form, LaminarBed, laminar_bed};
+use crate::part;
 use crate::result::Context;
 use crate::result::{Failure, Outcome};
 use crate::scene::BedScene;
-use crate::{part, tables};
-
-/// The model: Ouriemi's bed in closed form.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-pub struct OuriemiModel {
-    /// What kind of model: this one is a closed form.
-    pub kind: ExactKind,
-    /// Newtonian fluid over a Coulomb bed between two planes.
-    pub solution: OuriemiSolution,
-    /// One velocity for fluid and grains, or two.
-    pub form: Form,
-}
-
-only!(
-    /// Newtonian fluid over a Coulomb bed between two planes.
-    OuriemiSolution,
-    Ouriemi
-);
-
-tables! {
-    /// Newtonian fluid over a Coulomb bed between two planes, in closed form.
-    pub struct OuriemiTables {
-        /// The fluid.
-        fluid: Fluid,
-        /// The grains.
-        grains: Grains,
-        /// The bed.
-        bed: Bed,
-        /// Geometry and drive.
-        flow: LaminarFlow,
-        /// The model.
-        model: OuriemiModel,
-        /// Laws.
-        closures: BedClosures,
-        /// Levels of the profile.
-        #[serde(default)]
-        grid: Grid,
-    }
-}
 
 part! {
     /// Laminar flow over a bed of grains between two planes, in closed form.
     pub struct LaminarExact {
         /// One velocity for fluid and grains, or two.
+        #[serde(default)]
         form: Form,
         /// Laws.
+        #[serde(default)]
         closures: BedClosures,
         /// Levels of the profile.
         #[serde(default)]
@@ -65,16 +26,9 @@ part! {
 }
 
 impl Model for OnMesh<LaminarBed> {
-    const INFO: ModelInfo = ModelInfo { name: "exact/ouriemi", table: "laminar-exact", stochastic: false };
+    const INFO: ModelInfo = ModelInfo::new("laminar-exact").taking(&["pressure_gradient", "shields"]).under(&["plane"]);
     type Scene = BedScene;
     type Table = LaminarExact;
-    type Tables = OuriemiTables;
-
-    fn split(tables: &OuriemiTables) -> (BedScene, LaminarExact) {
-        let OuriemiTables { fluid, grains, bed, flow, model, closures, grid, check, limit, .. } = tables.clone();
-        let table = LaminarExact { form: model.form, closures, grid, check, limit };
-        (flow.over((&fluid, &grains, &bed)), table)
-    }
 
     fn build(scene: &BedScene, table: &LaminarExact, faults: &mut Faults) -> Option<Self> {
         let LaminarExact { form, closures, grid, .. } = table;
@@ -87,37 +41,21 @@ impl Model for OnMesh<LaminarBed> {
         if scene.mu_2.is_some() || scene.dilates {
             return None;
         }
-        let slips = scene.k_ck.is_some();
-        let same = scene.kind == Self::INFO.name && slips == scene.two_velocities;
-        let form = if slips { "two-fluid form" } else { "mixed form" };
+        let (form, words) =
+            if scene.k_ck.is_some() { ("two-fluid", "two-fluid form") } else { ("mixed", "mixed form") };
+        let mut own = vec![
+            format!("form={form}"),
+            format!("closures.friction.mu_s={:?}", scene.mu_s),
+            format!("closures.mixture_viscosity={}", scene.viscosity_law),
+        ];
+        let drag = scene.k_ck.map(|k_ck| format!("{{ law = \"carman-kozeny\", k_ck = {k_ck:?} }}"));
+        own.push(format!("closures.drag={}", drag.unwrap_or_else(|| "none".into())));
         Some(Offer {
             effort: Effort::None,
-            because: format!("constant friction and viscosity have a closed form; {form}"),
-            template: if slips { "exact_1d_ouriemi" } else { "exact_1d_ouriemi_mixed" },
-            overrides: (!same).then(|| keys(scene)),
+            because: format!("constant friction and viscosity have a closed form; {words}"),
+            case: OwnCase::Scene(own),
         })
     }
-}
-
-/// The flow in the keys of the case.
-fn keys(scene: &LaminarScene) -> Vec<String> {
-    let mut set = vec![
-        format!("fluid.density={:?}", scene.rho_f),
-        format!("fluid.viscosity={:?}", scene.eta),
-        format!("grains.diameter={:?}", scene.d),
-        format!("grains.density={:?}", scene.rho_p),
-        format!("bed.level={:?}", scene.h_p),
-        format!("bed.phi={:?}", scene.phi),
-        format!("flow.height={:?}", scene.h),
-        format!("flow.gravity={:?}", scene.g),
-        format!("closures.friction.mu_s={:?}", scene.mu_s),
-    ];
-    match scene.drive {
-        Ok(fall) => set.push(format!("flow.pressure_gradient={fall:?}")),
-        Err(theta) => set.extend([format!("flow.shields={theta:?}"), "flow.pressure_gradient=".into()]),
-    }
-    set.extend(scene.k_ck.map(|k_ck| format!("closures.drag.k_ck={k_ck:?}")));
-    set
 }
 
 impl Solve for OnMesh<LaminarBed> {

@@ -233,7 +233,7 @@ fn the_first_order_method_agrees_within_its_duality_gap() {
 
 #[test]
 fn planes_are_the_closed_form_of_the_plane_bed() {
-    // Yield levels evaluated independently with 40 digits, as in the cases exact_1d_ouriemi and its mixed form.
+    // Yield levels evaluated independently with 40 digits, as in the cases bed_ouriemi-laminar-exact and its mixed form.
     for (slips, level, digits) in [(false, 0.329_141_454_354_9, 2e-9), (true, 0.331_246_968_0, 2e-5)] {
         let solution = exact(&bed(Outline::Planes, slips), 48);
         let line = solution.line.as_ref().unwrap();
@@ -292,7 +292,7 @@ fn a_bed_at_rest_and_one_that_moves_to_its_bottom() {
     assert!(depth > 0.014, "{depth}");
     let outcome = run(
         "section_2d_square_bed",
-        &["flow.pressure_gradient=0.1", "model.form=two-fluid", "closures.drag.law=carman-kozeny", "grid.cells=16"],
+        &["flow.pressure_gradient=0.1", "form=two-fluid", "closures.drag.law=carman-kozeny", "grid.cells=16"],
     );
     assert!(outcome.results.get("bed_flux_m3_s").unwrap() < 1e-9 * outcome.results.get("flow_rate_m3_s").unwrap());
     assert_eq!(outcome.results.get("mobile_depth_m"), Some(0.0));

@@ -45,9 +45,9 @@ fn the_whole_duct_has_the_plug_of_a_bingham_fluid() {
 #[test]
 fn a_model_that_has_only_a_section_refuses_the_whole_duct() {
     for settings in [
-        &["model.form=two-fluid", "closures.drag.law=carman-kozeny"][..],
-        &["flow.shape=planes"],
-        &["model.method=first-order", "regularisation={ law = \"none\" }"],
+        &["form=two-fluid", "closures.drag.law=carman-kozeny"][..],
+        &["flow.section.shape=planes"],
+        &["method=first-order", "regularisation={ law = \"none\" }"],
     ] {
         let refused = load("section_3d_square_bed", settings).unwrap_err();
         assert!(refused.render(false).contains("not-whole"), "{}", refused.render(false));

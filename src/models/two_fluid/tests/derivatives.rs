@@ -49,8 +49,8 @@ fn of_every_closure_steady_and_in_time() {
     for set in [
         &[smooth] as &[&str],
         &[smooth, CLASSICAL],
-        &[smooth, "closures.granular.law=mu-i", "bed.phi_max=0.61"],
-        &[smooth, "closures.dispersion.law=gradient", "model.fluid_stress=whole"],
+        &[smooth, "closures.granular.law=mu-i", "phi_max=0.61"],
+        &[smooth, "closures.dispersion.law=gradient", "fluid_stress=whole"],
         &[smooth, "grains.restitution=0.3"],
     ] {
         let (_, column) = reference(set, 40);

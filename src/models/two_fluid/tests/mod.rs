@@ -19,7 +19,7 @@ fn flow(case: &str, set: &[&str]) -> TwoFluid {
 
 /// The reference flow, with changes, on `cells` cells.
 fn reference(set: &[&str], cells: usize) -> (TwoFluid, Column) {
-    let flow = flow("kinetic_1d_theta06", set);
+    let flow = flow("flow_theta06-two-fluid", set);
     let column = scaled(&flow, cells).unwrap();
     (flow, column)
 }

@@ -86,7 +86,7 @@ fn elastic(phi: f64) -> f64 {
 }
 
 fn check(set: &[&str], theory: &Theory) {
-    let flow = flow("kinetic_1d_theta06", set);
+    let flow = flow("flow_theta06-two-fluid", set);
     let (rho_f, rho_p, g, d, sine) = (1000.0, 2500.0, 9.81, 6e-3, 0.05);
     let cosine = (1.0_f64 - sine * sine).sqrt();
     let table = Table::new(&flow, 960);

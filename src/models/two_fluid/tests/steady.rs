@@ -28,7 +28,7 @@ fn the_shipped_grid_is_fine_enough_at_all_shields_numbers() {
     for shields in ["0.2", "0.4", "0.6", "0.8", "1"] {
         for law in ["closures.granular.law=frictional-collisional", CLASSICAL] {
             let shields = format!("flow.shields={shields}");
-            let set = [shields.as_str(), law];
+            let set = ["flow.depth=", shields.as_str(), law];
             let [shipped, finer] = [240, 480].map(|cells| rate(&set, cells));
             let error = 4.0 / 3.0 * (shipped / finer - 1.0);
             assert!(error.abs() < 0.005, "{set:?}: {shipped} {finer}");
@@ -58,7 +58,7 @@ fn readings_change_what_an_independent_solution_says_they_change() {
     let share = |set: &str| rate(&[set], 120) / reference;
     // By a third, by 12 %, by 18 %, and by a few per cent.
     assert!((share("closures.mixing_length.phi_max=0.635") - 2.0 / 3.0).abs() < 0.02);
-    assert!((share("model.fluid_stress=whole") - 0.88).abs() < 0.01);
+    assert!((share("fluid_stress=whole") - 0.88).abs() < 0.01);
     assert!((share("grains.restitution=0.9") - 1.18).abs() < 0.01);
     for e in ["0.3", "0.5"] {
         assert!((share(&format!("grains.restitution={e}")) - 1.0).abs() < 0.05, "{e}");
@@ -70,7 +70,7 @@ fn readings_change_what_an_independent_solution_says_they_change() {
 #[test]
 fn balances_close_and_solids_are_kept() {
     for set in [&[] as &[&str], &[CLASSICAL], &["grains.friction=0"], &["grains.restitution=0.3"]] {
-        let flow = flow("kinetic_1d_theta06", set);
+        let flow = flow("flow_theta06-two-fluid", set);
         let outcome = run(&flow, 120, &mut Quiet).unwrap();
         for balance in &outcome.balances {
             assert!(balance.relative.abs() < 1e-9, "{set:?}: {} {:e}", balance.name, balance.relative);
@@ -94,7 +94,7 @@ fn the_pressure_carries_the_weight() {
 
 #[test]
 fn a_flow_too_large_to_compute_says_so() {
-    let mut flow = flow("kinetic_1d_theta06", &[]);
+    let mut flow = flow("flow_theta06-two-fluid", &[]);
     flow.eta = f64::MAX;
     assert!(outcome::column(&flow, 40).is_err());
 }
@@ -106,10 +106,10 @@ fn near_the_threshold_the_steady_flow_is_unstable() {
         let solved = steady::solve(&column, flow.phi, flow.shields(), |_| false).unwrap();
         column.growth(&solved.state).unwrap()
     };
-    let (unstable, stable) = (growth(&["flow.shields=0.2"]), growth(&[]));
+    let (unstable, stable) = (growth(&["flow.depth=", "flow.shields=0.2"]), growth(&[]));
     assert!(unstable.rate > 0.0 && unstable.frequency > 0.0, "{unstable:?}");
     assert!(stable.rate < 0.0, "{stable:?}");
-    assert!(growth(&["flow.shields=0.25"]).rate < 0.0);
+    assert!(growth(&["flow.depth=", "flow.shields=0.25"]).rate < 0.0);
 }
 
 #[test]

@@ -76,7 +76,7 @@ fn a_suspension_settles_with_the_hindered_velocity() {
 
 #[test]
 fn waves_go_to_and_fro() {
-    let set = ["model.state=transient", "flow.shields=", "flow.depth=0.1", "flow.slope=0", "grid.fine="];
+    let set = ["state=transient", "flow.shields=", "flow.depth=0.1", "flow.slope=0", "grid.fine="];
     // Water that goes with 1 m/s: a fifth of that leaves the bed at rest.
     let waves = [
         "flow.oscillation.amplitude=3000",
@@ -86,7 +86,7 @@ fn waves_go_to_and_fro() {
         "solver.tolerance=1e-2",
     ];
     let all: Vec<&str> = set.into_iter().chain(waves).collect();
-    let flow = super::flow("kinetic_1d_theta06", &all);
+    let flow = super::flow("flow_theta06-two-fluid", &all);
     let outcome = crate::models::two_fluid::run(&flow, 60, &mut crate::result::Quiet).unwrap();
     let series = outcome.series.unwrap();
     let rates: Vec<f64> =
