@@ -173,7 +173,7 @@ pub fn quick() -> impl Iterator<Item = &'static str> {
         "section_3d_",
         "sheet_1d_limit_pseudotime",
     ];
-    let grains = |name: &str| name.ends_with("-coupled") || name.starts_with("flow_") && name.ends_with("_quick");
+    let grains = |name: &str| name.ends_with("-coupled") || name.starts_with("flow_") && name.contains("_quick");
     names().filter(move |name| !grains(name) && !LONG.iter().any(|long| name.starts_with(long)))
 }
 

@@ -244,8 +244,9 @@ impl Moving {
         let Some(mut depth) = difference(height, level) else { return };
         let whole = bare(height).to_string();
         let comment = height.decor().suffix().and_then(|suffix| suffix.as_str()).unwrap_or_default().trim();
-        let comment = if comment.is_empty() { "#".to_owned() } else { format!("{comment};") };
-        *depth.decor_mut() = Decor::new(" ", format!("  {comment} with the bed {}", whole.trim_matches('"')));
+        let what = comment.trim_start_matches('#').trim();
+        let what = if what.is_empty() { String::new() } else { format!(": {what}") };
+        *depth.decor_mut() = Decor::new(" ", format!("  # with the bed {}{what}", whole.trim_matches('"')));
         if let Some(place) = self.new.get_mut("flow").and_then(|flow| flow.get_mut("depth")) {
             *place = Item::Value(depth);
         }

@@ -43,7 +43,8 @@ impl Verb for Stability {
             let message = format!("--tolerance {tolerance} is not a share above 0");
             return Err(CliError::Usage { message, hint: "0.01 is one per cent".into() });
         }
-        let own = self.case.load(registry)?.0.limit().filter(|_| self.over.is_empty()).cloned();
+        // What is varied may be what the case lacks: then its points are what is checked.
+        let own = if self.over.is_empty() { self.case.load(registry)?.0.limit().cloned() } else { None };
         if self.over.is_empty() && own.is_none() {
             let message = "nothing is varied: no --over, and the case has no table [limit]".to_owned();
             return Err(CliError::Usage { message, hint: "add --over table.key=from:to:count".into() });

@@ -83,6 +83,9 @@ impl Problem {
         let complete = |outcome: &mut Outcome| {
             outcome.statement = self.statement();
             outcome.work = self.cells() as f64 * outcome.steps();
+            if let Some(theta) = self.scene.as_ref().and_then(Scene::shields_drive) {
+                outcome.results.set(&q::SHIELDS_DRIVE, theta);
+            }
             let figures = self.solver.figures(&self.name, outcome);
             outcome.figures.extend(figures.into_iter().map(Figure::finite));
         };

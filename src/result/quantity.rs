@@ -113,6 +113,7 @@ catalogue! {
     TRANSPORT_RATE_DIMENSIONLESS = "transport_rate_dimensionless", "dimensionless transport rate", "Q*", "1", "q_p/(d sqrt((ρ_p/ρ_f - 1) g d)), g the full gravity";
     TRANSPORT_RATE_BEADS = "transport_rate_beads_1_s", "transport rate by number", "n", "1/s", "grains that pass a cross-section of the channel per unit time";
     SHIELDS_TURBULENT = "shields_turbulent", "turbulent Shields number", "θ*", "1", "largest mean Reynolds stress over (ρ_p - ρ_f) g d";
+    SHIELDS_DRIVE = "shields_drive", "Shields number of the drive", "θ_d", "1", "wanted stress on the bed, or the weight along the slope of the fluid over the bed at rest, over (ρ_p - ρ_f) g d; no side walls";
     SHIELDS_NOMINAL = "shields_nominal", "nominal Shields number", "θ_n", "1", "ρ_f g h_w sin(α) over (ρ_p - ρ_f) g d, h_w the water depth";
     WATER_DEPTH = "water_depth_m", "water depth", "h_w", "m", "free surface over the bed level";
     TRANSIENT = "transient_s", "transient", "t_0", "s", "time before the first sample that is averaged";
@@ -125,6 +126,7 @@ catalogue! {
     MOBILE_DEPTH = "mobile_depth_m", "mobile depth", "Y", "m", "h_p - h_c: thickness of the moving grains";
     YIELD_LEVEL = "yield_level_m", "yield level", "h_c", "m", "elevation below which the grains are at rest";
     BED_LEVEL = "bed_level_m", "bed level", "h_p", "m", "elevation of the top of the grains";
+    BED_LEVEL_REST = "bed_level_rest_m", "bed level at rest", "h_0", "m", "elevation of the top of the grains before they flow";
     FLOW_HEIGHT = "flow_height_m", "flow height", "H", "m", "elevation of the upper wall or of the free surface";
     PHI_INTERFACE = "phi_interface", "solid fraction under the interface", "φ(h_p)", "1", "limit of φ from below at the bed level";
     SLIP_VELOCITY = "slip_velocity_m_s", "slip velocity", "U - u_p", "m/s", "mixture velocity minus grain velocity in the mobile layer, where it is constant";

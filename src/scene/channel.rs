@@ -43,7 +43,7 @@ pub struct ChannelFlow {
     /// Depth: of the flow, the distance of two planes, the height of a section.
     #[schemars(extend("x-unit" = "m", "exclusiveMinimum" = 0.0, "maximum" = 1e4))]
     pub depth: f64,
-    /// Cross-section of a closed duct; left out, the flow is plane.
+    /// Cross-section of a closed duct; a plane flow has none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub section: Option<Section>,
     /// Drive: fall of pressure along the flow, -dp/dx.

@@ -181,6 +181,15 @@ impl Scene {
         all.into_iter().filter_map(derived).collect()
     }
 
+    /// Shields number of what drives a flow over a bed, where the scene alone fixes it.
+    #[must_use]
+    pub fn shields_drive(&self) -> Option<f64> {
+        match self {
+            Self::Bed(scene) => scene.shields_drive().filter(|theta| theta.is_finite()),
+            _ => None,
+        }
+    }
+
     /// Solid volume of the bed at rest per area \[m], without pores; `None` where the scene does not say.
     #[must_use]
     pub fn solid_volume(&self) -> Option<f64> {

@@ -2,6 +2,7 @@
 
 use super::freeze::FrozenBed;
 use super::record::Sample;
+use super::Surface;
 use super::run::Run;
 use super::theory;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
@@ -68,6 +69,9 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
         set(&q::SHIELDS, Some(reynolds.plus(viscous)), 1.0 / stress);
     }
     results.set(&q::FLOW_HEIGHT, height);
+    if let Surface::Depth(depth) = flow.surface {
+        results.set(&q::BED_LEVEL_REST, height - depth);
+    }
     results.set(&q::SLOPE_SINE, bed.beta.sin());
     if let Some((_, bulk)) = bed_level(&averaged) {
         results.set(&q::PHI_BULK, bulk);

@@ -32,7 +32,7 @@ const THICKNESS: Range = Range { variable: "sheet_thickness_m/d", min: 3.0, max:
 const SHEET: Range = Range { variable: "shields", min: 0.5, max: f64::INFINITY };
 
 /// A given settling velocity over that of a sphere of this diameter and density: cylinders of Sumer et al. (1996) have 0.93.
-const SETTLING: Range = Range { variable: "w_s over that of a sphere", min: 1.0 / 1.5, max: 1.5 };
+const SETTLING: Range = Range { variable: "w_s over that of a sphere", min: 0.667, max: 1.5 };
 
 /// Scaled numbers from which on products of a few of them overflow.
 const LARGEST: f64 = 1e60;

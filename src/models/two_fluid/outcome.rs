@@ -128,7 +128,7 @@ fn transport(flow: &TwoFluid, levels: &Levels, results: &mut Results) {
 fn fluid(flow: &TwoFluid, levels: &Levels, results: &mut Results) {
     let (d, velocity) = (flow.d, flow.velocity_scale());
     let turbulent = levels.cells.iter().map(|level| level.turbulent).fold(0.0, f64::max);
-    results.set(&q::SHIELDS_NOMINAL, flow.shields());
+    results.set(&q::BED_LEVEL_REST, flow.thickness);
     results.set(&q::SHIELDS_TURBULENT, turbulent);
     let level = levels.bed_level();
     match level.and_then(|z| Some((z, levels.at(z, |level| level.viscous + level.turbulent)?))) {
