@@ -1,15 +1,21 @@
 //! `bedload migrate`: a case of format 1 as one of format 2, key by key, with its comments and its units.
 
+mod pieces;
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::mem::take;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use toml_edit::{ArrayOfTables, Decor, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
+use toml_edit::{Decor, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
 use super::new::write_new;
-use super::{Answers, CliError, Verb, say};
-use crate::case::format1::{ACROSS, Form, HEIGHT, TOP_HEIGHT};
+use super::{Answers, CliError, Verb, colour, say};
+use crate::case::format1::{ACROSS, Form, HEIGHT, OF_THE_FLOW, TOP_HEIGHT};
+use crate::case::printable;
 use crate::model::Registry;
-use crate::units::parse_quantity;
+use pieces::{bare, behind, comments, decor_of, decorated, difference, law, line, over, raw, spaced};
 
 /// Write a case of format 1 in format 2: the flow, and the table of its model. Comments, units and what was left out stay as they are.
 #[derive(Clone, Debug, Args)]
@@ -26,17 +32,33 @@ pub(super) struct Migrate {
 }
 
 impl Verb for Migrate {
-    fn execute(self, _: &Registry, _: &Answers) -> Result<(), CliError> {
-        let text = migrated(&read(&self.old)?).map_err(|(problem, hint)| CliError::Usage {
+    fn execute(self, registry: &Registry, _: &Answers) -> Result<(), CliError> {
+        let old = read(&self.old)?;
+        let text = migrated(&old.replace("\r\n", "\n")).map_err(|(problem, hint)| CliError::Usage {
             message: format!("{}: {problem}", self.old.display()),
             hint,
         })?;
-        if self.new.as_os_str() == "-" {
-            return Ok(say(&text)?);
+        let ends = |text: &str| if old.contains("\r\n") { text.replace('\n', "\r\n") } else { text.to_owned() };
+        let file = self.new.display().to_string();
+        let to_file = file != "-";
+        if to_file {
+            write_new(&self.new, &ends(&text), self.force)?;
+        } else {
+            io::stdout().lock().write_all(ends(&printable(&text)).as_bytes())?;
+            io::stdout().flush()?;
         }
-        write_new(&self.new, &text, self.force)?;
-        let file = self.new.display();
-        Ok(say(&format!("wrote {file}; next: bedload check {file}\n"))?)
+        // What was wrong with the old case is wrong with the new one: it is there to be mended.
+        if let Err(error) = registry.parse("new", if to_file { &file } else { "the new file" }, text, &[]) {
+            if to_file {
+                say(&format!("wrote {file}\n"))?;
+            }
+            write!(io::stderr().lock(), "the new file does not check yet:\n{}", error.render(colour()))?;
+            return Err(CliError::Quiet(2));
+        }
+        if to_file {
+            say(&format!("wrote {file}; next: bedload check {file}\n"))?;
+        }
+        Ok(())
     }
 }
 
@@ -65,23 +87,48 @@ fn migrated(text: &str) -> Result<String, Refused> {
     };
     let form = Form::of(kind, word(["model", "solution"]))
         .ok_or_else(|| (format!("format 1 has no model \"{kind}\" with this solution"), hint()))?;
-    Ok(Moving { form, new: DocumentMut::new() }.moved(&old))
+    let flow = old.get("flow").and_then(Item::as_table_like);
+    if flow.is_some_and(|flow| flow.contains_key("height") && flow.contains_key("depth")) {
+        return Err(both(text, "flow.height", "flow.depth", "a case has one of them"));
+    }
+    let (left, here) = (String::new(), String::new());
+    Moving { text, form, new: DocumentMut::new(), left, here, from: BTreeMap::new() }.moved(&old)
 }
 
-struct Moving {
+/// That two keys are there for one thing.
+fn both(text: &str, first: &str, second: &str, why: &str) -> Refused {
+    let place = line(text, second);
+    (format!("{place}{first} and {second} are both there; {why}"), "take out the one that does not hold".into())
+}
+
+struct Moving<'t> {
+    text: &'t str,
     form: &'static Form,
     new: DocumentMut,
+    /// comments of lines that are no more: the next thing that stays takes them
+    left: String,
+    /// the key of format 1 that is moved
+    here: String,
+    /// and all that were, by their new place
+    from: BTreeMap<String, Vec<String>>,
 }
 
-impl Moving {
-    fn moved(mut self, old: &DocumentMut) -> String {
-        let header = old.iter().next().and_then(|(key, _)| old.key(key)).map(|key| key.leaf_decor().clone());
-        self.new.insert_formatted(&decorated("format", header), toml_edit::value(2));
+impl Moving<'_> {
+    fn moved(mut self, old: &DocumentMut) -> Result<String, Refused> {
+        let decor = old.get("format").map(|item| decor_of(old.key("format"), item)).unwrap_or_default();
+        let mut format = Value::from(2);
+        format.decor_mut().set_suffix(raw(decor.suffix()));
+        self.new.insert_formatted(&decorated("format", raw(decor.prefix())), Item::Value(format));
         self.new.insert("scene", toml_edit::value(self.form.scene));
         // The tables of the flow come first, in their order, then the model's.
-        for table in ["case", "fluid", "grains", "bed", "flow"] {
-            let here = old.get(table).and_then(Item::as_table_like);
-            let _ = here.is_some_and(|here| self.shell(table, &old[table], here));
+        for name in OF_THE_FLOW {
+            let Some(item) = old.get(name).filter(|item| item.is_table_like()) else { continue };
+            let mut table = Table::new();
+            *table.decor_mut() = match item {
+                Item::Table(table) => spaced(table.decor()),
+                item => Decor::new(format!("\n{}", comments(&decor_of(old.key(name), item))), ""),
+            };
+            self.new.insert(name, Item::Table(table));
         }
         let order = [
             "case",
@@ -100,55 +147,70 @@ impl Moving {
         let mut tables: Vec<&str> = old.iter().map(|(key, _)| key).filter(|key| *key != "format").collect();
         tables.sort_by_key(|key| rank(key));
         for table in tables {
-            match &old[table] {
-                Item::ArrayOfTables(rows) => self.rows(table, rows),
-                item => {
-                    if let Some(keys) = item.as_table_like() {
-                        self.keys(table, keys);
+            let item = &old[table];
+            let decor = decor_of(old.key(table), item);
+            table.clone_into(&mut self.here);
+            match item.as_table_like() {
+                Some(keys) => {
+                    if !OF_THE_FLOW.contains(&table) {
+                        self.left += &comments(&decor);
                     }
+                    self.keys(table, keys);
                 }
+                None => self.put(&self.form.place(table), decor, item.clone()),
+            }
+        }
+        self.here.clear();
+        for (place, keys) in &self.from {
+            if let [first, second, ..] = keys.as_slice() {
+                return Err(both(self.text, first, second, &format!("they are {place} now")));
             }
         }
         self.unsaid();
-        self.depth();
-        self.new.retain(|_, item| item.as_table().is_none_or(|table| !table.is_empty()));
-        self.new.decor_mut().set_suffix(old.trailing().as_str().unwrap_or_default());
+        self.depth()?;
+        self.sweep(raw(Some(old.trailing())));
         let mut text = self.new.to_string();
         while text.contains("\n\n\n") {
             text = text.replace("\n\n\n", "\n\n");
         }
-        text
+        Ok(text)
     }
 
-    /// The table of the flow that will take keys, with the comment over it.
-    fn shell(&mut self, name: &str, item: &Item, _: &dyn TableLike) -> bool {
-        let mut table = Table::new();
-        *table.decor_mut() = item.as_table().map_or_else(|| Decor::new("\n", ""), |table| spaced(table.decor()));
-        self.new.insert(name, Item::Table(table)).is_none()
-    }
-
-    /// Rows of checks.
-    fn rows(&mut self, name: &str, rows: &ArrayOfTables) {
-        let mut moved = ArrayOfTables::new();
-        for row in rows {
-            let mut table = Table::new();
-            *table.decor_mut() = spaced(row.decor());
-            for (key, item) in row.iter() {
-                table.insert_formatted(&decorated(key, row.key(key).map(|key| key.leaf_decor().clone())), item.clone());
-            }
-            moved.push(table);
+    /// Takes out the tables of the flow that hold nothing now. That of the model stays: it chooses the model.
+    fn sweep(&mut self, trailing: &str) {
+        let last = take(&mut self.left);
+        let model = self.table(&[self.form.model]);
+        let alone = model.is_empty();
+        if alone {
+            model.set_implicit(false);
+            over(model, &last);
         }
-        self.model().insert(name, Item::ArrayOfTables(moved));
+        let mut left = String::new();
+        let names: Vec<String> = self.new.iter().map(|(name, _)| name.to_owned()).collect();
+        for name in names {
+            let Some(Item::Table(table)) = self.new.get_mut(&name) else { continue };
+            if table.is_empty() && name != self.form.model {
+                left += &comments(table.decor());
+                self.new.remove(&name);
+            } else if !left.is_empty() && !table.is_implicit() {
+                over(table, &take(&mut left));
+            }
+        }
+        if !alone {
+            left += &last;
+        }
+        let gap = if left.is_empty() { "" } else { "\n" };
+        self.new.set_trailing(format!("{gap}{left}{trailing}"));
     }
 
     fn keys(&mut self, path: &str, table: &dyn TableLike) {
         for (key, item) in table.iter() {
             let here = format!("{path}.{key}");
-            let decor = table.key(key).map(|key| key.leaf_decor().clone());
+            let decor = decor_of(table.key(key), item);
+            self.here.clone_from(&here);
             match here.as_str() {
-                "model.kind" | "model.solution" => {}
+                "model.kind" | "model.solution" | "flow.side_walls" => self.left += &comments(&decor),
                 "closures.lid" => self.put("flow.top", decor, law(item)),
-                "flow.side_walls" => {}
                 path if path == ACROSS.0 && self.form.moved.contains(&ACROSS) => {
                     let walls = table.get("side_walls").and_then(Item::as_bool) == Some(true);
                     let place = if walls { "flow.width".to_owned() } else { self.form.place(path) };
@@ -163,11 +225,7 @@ impl Moving {
                 }
                 "bed.reading" => {
                     let word = if item.as_str() == Some("initial") { "at-rest" } else { "in-flow" };
-                    let mut value = Value::from(word);
-                    if let Some(old) = item.as_value() {
-                        *value.decor_mut() = old.decor().clone();
-                    }
-                    self.put(&self.form.place("bed.reading"), decor, Item::Value(value));
+                    self.put(&self.form.place("bed.reading"), decor, toml_edit::value(word));
                 }
                 "limit.over" => {
                     let over = item.as_str().and_then(|over| over.split_once('='));
@@ -189,17 +247,21 @@ impl Moving {
                             !self.form.moved.iter().any(|(old, _)| *old == format!("{path}.{key}"))
                         });
                         for (key, item) in goes {
-                            let decor = keys.key(key).map(|key| key.leaf_decor().clone());
-                            self.put(&self.form.place(&format!("{path}.{key}")), decor, item.clone());
+                            self.here = format!("{path}.{key}");
+                            self.put(&self.form.place(&self.here), decor_of(keys.key(key), item), item.clone());
                         }
+                        path.clone_into(&mut self.here);
                         let mut rest = Table::new();
                         for (key, item) in stays {
-                            let decor = keys.key(key).map(|key| key.leaf_decor().clone());
-                            rest.insert_formatted(&decorated(key, decor), item.clone());
+                            let prefix = decor_of(keys.key(key), item);
+                            rest.insert_formatted(&decorated(key, raw(prefix.prefix())), item.clone());
                         }
-                        self.put(&self.form.place(path), None, law(&Item::Table(rest)));
+                        self.put(&self.form.place(path), decor, law(&Item::Table(rest)));
                     }
-                    Some(keys) if item.is_table() => self.keys(path, keys),
+                    Some(keys) if item.is_table() => {
+                        self.left += &comments(&decor);
+                        self.keys(path, keys);
+                    }
                     _ => self.put(&self.form.place(path), decor, item.clone()),
                 },
             }
@@ -208,18 +270,18 @@ impl Moving {
 
     /// What a case of format 1 left unsaid: planes above and below, what a slope without a word is.
     fn unsaid(&mut self) {
-        if let Some(top) = self.form.top {
-            self.put("flow.top", None, toml_edit::value(top));
+        if let Some(top) = self.form.top.filter(|_| !self.from.contains_key("flow.top")) {
+            self.put("flow.top", Decor::default(), toml_edit::value(top));
         }
         if let Some((law, none)) = self.form.law.filter(|(law, _)| !self.has(law)) {
-            self.put(&self.form.place(law), None, toml_edit::value(none));
+            self.put(&self.form.place(law), Decor::default(), toml_edit::value(none));
         }
         let Some(usual) = self.form.slope else { return };
         let Some(flow) = self.new.get("flow").and_then(Item::as_table) else { return };
         let number =
             flow.get("slope").is_some_and(|slope| slope.as_float().or(slope.as_integer().map(|i| i as f64)).is_some());
         if number && !flow.contains_key("slope_definition") {
-            self.put("flow.slope_definition", None, toml_edit::value(usual));
+            self.put("flow.slope_definition", Decor::default(), toml_edit::value(usual));
         }
     }
 
@@ -234,15 +296,23 @@ impl Moving {
     }
 
     /// Over a bed the height of format 1 counted the bed.
-    fn depth(&mut self) {
-        if !self.form.moved.contains(&HEIGHT) || self.form.scene != "bed" {
-            return;
+    fn depth(&mut self) -> Result<(), Refused> {
+        // A depth of format 1 is that of the fluid already.
+        let counted = self.from.get(HEIGHT.1).is_some_and(|keys| keys[0] == HEIGHT.0);
+        if !counted || self.form.scene != "bed" {
+            return Ok(());
         }
         let value =
             |table: &str, key: &str| self.new.get(table).and_then(|table| table.get(key)).and_then(Item::as_value);
-        let (Some(height), Some(level)) = (value("flow", "depth"), value("bed", "thickness")) else { return };
-        let Some(mut depth) = difference(height, level) else { return };
+        let (Some(height), Some(level)) = (value("flow", "depth"), value("bed", "thickness")) else {
+            return Ok(());
+        };
         let whole = bare(height).to_string();
+        let Some(mut depth) = difference(height, level) else {
+            let place = line(self.text, "flow.height");
+            let problem = format!("{place}flow.height = {whole} over bed.level = {} leaves no depth", bare(level));
+            return Err((problem, "flow.height counts the bed: it is a length, and more than bed.level".into()));
+        };
         let comment = height.decor().suffix().and_then(|suffix| suffix.as_str()).unwrap_or_default().trim();
         let what = comment.trim_start_matches('#').trim();
         let what = if what.is_empty() { String::new() } else { format!(": {what}") };
@@ -250,10 +320,7 @@ impl Moving {
         if let Some(place) = self.new.get_mut("flow").and_then(|flow| flow.get_mut("depth")) {
             *place = Item::Value(depth);
         }
-    }
-
-    fn model(&mut self) -> &mut Table {
-        self.table(&[self.form.model])
+        Ok(())
     }
 
     /// The table at `path`, made where there is none.
@@ -276,114 +343,55 @@ impl Moving {
         table
     }
 
-    fn put(&mut self, path: &str, decor: Option<Decor>, mut item: Item) {
+    /// Puts `item` at `path`, with what stood before and behind it and the comments that were left.
+    fn put(&mut self, path: &str, decor: Decor, mut item: Item) {
+        self.from.entry(path.to_owned()).or_default().push(self.here.clone());
         let mut parts: Vec<&str> = path.split('.').collect();
         let Some(key) = parts.pop() else { return };
-        if let Item::Table(table) = &mut item {
-            table.set_position(None);
-        }
+        let mut left = take(&mut self.left);
         // A section is written on one line, with what stands in it already.
-        if parts.len() == 2 && parts[1] == "section" || parts.len() == 2 && parts[1] == "cell" {
-            let parent = self.table(&parts[..1]);
-            let inline = parent.entry(parts[1]).or_insert_with(|| Item::Value(Value::InlineTable(InlineTable::new())));
-            if let (Some(inline), Some(value)) = (inline.as_inline_table_mut(), item.as_value()) {
+        if let (Some(value), [table, line @ ("section" | "cell")]) = (item.as_value(), parts.as_slice()) {
+            left += &comments(&decor);
+            let parent = self.table(&[table]);
+            let inline = parent.entry(line).or_insert_with(|| Item::Value(Value::InlineTable(InlineTable::new())));
+            if let Some(inline) = inline.as_inline_table_mut() {
                 inline.insert(key, bare(value));
+            }
+            if let Some(mut key) = parent.key_mut(line) {
+                let before = raw(key.leaf_decor().prefix()).to_owned();
+                *key.leaf_decor_mut() = Decor::new(before + &left, " ");
             }
             return;
         }
-        self.table(&parts).insert_formatted(&decorated(key, decor), item);
-    }
-}
-
-/// What stands over a table, after an empty line.
-fn spaced(decor: &Decor) -> Decor {
-    let prefix = decor.prefix().and_then(|prefix| prefix.as_str()).unwrap_or_default();
-    let suffix = decor.suffix().and_then(|suffix| suffix.as_str()).unwrap_or_default();
-    Decor::new(format!("\n{}", prefix.trim_start_matches('\n')), suffix)
-}
-
-fn decorated(name: &str, decor: Option<Decor>) -> Key {
-    let key = Key::new(name);
-    match decor {
-        Some(decor) => {
-            let prefix = decor.prefix().and_then(|prefix| prefix.as_str()).unwrap_or_default();
-            key.with_leaf_decor(Decor::new(prefix, " "))
+        let mut prefix = raw(decor.prefix()).to_owned();
+        match &mut item {
+            Item::Table(table) => {
+                table.set_position(None);
+                table.set_dotted(false);
+                *table.decor_mut() = Decor::new(format!("\n{}{prefix}", take(&mut left)), raw(decor.suffix()));
+                prefix.clear();
+            }
+            Item::ArrayOfTables(rows) => {
+                for row in rows.iter_mut() {
+                    row.set_position(None);
+                    over(row, &take(&mut left));
+                }
+            }
+            Item::Value(value) => prefix += &behind(value, &decor),
+            Item::None => {}
         }
-        None => key,
-    }
-}
-
-/// A value without the spaces and comments around it.
-fn bare(value: &Value) -> Value {
-    let mut value = value.clone();
-    *value.decor_mut() = Decor::default();
-    value
-}
-
-fn is_bare(decor: &Decor) -> bool {
-    let blank = |text: Option<&toml_edit::RawString>| {
-        text.and_then(|text| text.as_str()).is_none_or(|text| !text.contains('#'))
-    };
-    blank(decor.prefix()) && blank(decor.suffix())
-}
-
-/// A law as a word, or on one line with what it needs; as the table that it is where a comment would be lost.
-fn law(item: &Item) -> Item {
-    let Some(table) = item.as_table_like() else { return item.clone() };
-    let mut line = InlineTable::new();
-    let mut comment = None;
-    let last = table.iter().count().saturating_sub(1);
-    for (at, (key, value)) in table.iter().enumerate() {
-        let Some(value) = value.as_value() else { return item.clone() };
-        let own = table.key(key).is_none_or(|key| is_bare(key.leaf_decor()));
-        if !own || at < last && !is_bare(value.decor()) {
-            return item.clone();
-        }
-        if at == last && !is_bare(value.decor()) {
-            comment = value.decor().suffix().cloned();
-        }
-        line.insert(key, bare(value));
-    }
-    let mut value = match (line.len(), line.get("law")) {
-        (1, Some(word)) => word.clone(),
-        _ => Value::InlineTable(line),
-    };
-    if let Some(comment) = comment {
-        value.decor_mut().set_suffix(comment);
-    }
-    Item::Value(value)
-}
-
-/// `height - level`, in the unit that both have, with no more digits than they have; in metres where the units differ.
-fn difference(height: &Value, level: &Value) -> Option<Value> {
-    let parts = |value: &Value| -> Option<(f64, usize, String)> {
-        let text = match value {
-            Value::String(text) => text.value().clone(),
-            Value::Integer(number) => number.value().to_string(),
-            Value::Float(number) => number.value().to_string(),
-            _ => return None,
-        };
-        let number = text.trim().trim_end_matches(|c: char| c.is_alphabetic() || c == ' ').to_owned();
-        let unit = text.trim()[number.len()..].trim().to_owned();
-        let decimals = number.split_once('.').map_or(0, |(_, decimals)| decimals.len());
-        Some((number.parse().ok()?, decimals, unit))
-    };
-    let metres = |value: &Value| match value {
-        Value::String(text) => parse_quantity(text.value(), "m").ok(),
-        Value::Integer(number) => Some(*number.value() as f64),
-        Value::Float(number) => Some(*number.value()),
-        _ => None,
-    };
-    if let (Some((h, places_h, unit)), Some((l, places_l, same))) = (parts(height), parts(level))
-        && unit == same
-    {
-        let number = format!("{:.*}", places_h.max(places_l), h - l);
-        let number = if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { &number };
-        return if unit.is_empty() {
-            number.parse::<f64>().ok().map(Value::from)
+        // What stood over a table stands over the new one, if this is its first key.
+        let first = parts.iter().try_fold(self.new.as_item(), |item, name| item.get(name)).is_none();
+        let table = self.table(&parts);
+        if first {
+            over(table, &left);
         } else {
-            Some(format!("{number} {unit}").into())
-        };
+            prefix = left + &prefix;
+        }
+        if item.is_value() {
+            table.insert_formatted(&decorated(key, &prefix), item);
+        } else {
+            table.insert(key, item);
+        }
     }
-    Some(Value::from(metres(height)? - metres(level)?))
 }
