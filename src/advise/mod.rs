@@ -13,7 +13,7 @@ use crate::model::{self, Checked, Flow, ModelInfo, Offer, OwnCase, Registry, Ter
 use crate::result::Context;
 
 use crate::result::quantity as q;
-use crate::result::{Failure, Results, SolveError, codes};
+use crate::result::{Failure, Results, SolveError, Verdict, codes};
 use crate::units::significant;
 
 /// A number that describes the scene.
@@ -181,23 +181,41 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
         let drops =
             matches!(&own, OwnCase::Scene(changes) if !changes.is_empty()) && terms.iter().any(|term| !term.keep);
         let (kind, stochastic) = (info.name, info.stochastic);
-        if same && !drops {
-            return Ok(Advice { numbers, least: Least { kind, stochastic, because, case: None }, terms });
-        }
-        match subject.of(kind, &own) {
-            Ok((own, least)) => {
-                if alone {
-                    let subject = Subject { registry: registry.clone().choosing(kind), case: &own, tolerance };
-                    terms.extend(least.solver().terms().iter().filter_map(|term| subject.assess(term)));
-                }
-                let resolved = own.resolved();
-                // The claims of the case are not those of another model.
-                let text = resolved.split("\n[[").next().unwrap_or(&resolved).trim_end();
-                let case = Some(format!("{text}\n"));
-                return Ok(Advice { numbers, least: Least { kind, stochastic, because, case }, terms });
+        let found = if same && !drops {
+            Ok((None, problem.clone()))
+        } else {
+            subject.of(kind, &own).map(|(own, found)| (Some(own), found))
+        };
+        let (own, found) = match found {
+            Ok(found) => found,
+            Err(error) => {
+                refused = refused.or(Some(AdviseError::Refused { kind, error: Box::new(error) }));
+                continue;
             }
-            Err(error) => refused = refused.or(Some(AdviseError::Refused { kind, error: Box::new(error) })),
+        };
+        // A continuum takes milliseconds: what is advised has a solution, and none of its premises is broken.
+        if !stochastic {
+            match Context::quiet(|context| found.run(context)) {
+                Err(failure) => {
+                    refused = refused.or(Some(AdviseError::Fails { kind, error: failure.error }));
+                    continue;
+                }
+                Ok(outcome) if outcome.regime.iter().any(|premise| premise.verdict == Verdict::Broken) => continue,
+                Ok(_) => {}
+            }
         }
+        let Some(own) = own else {
+            return Ok(Advice { numbers, least: Least { kind, stochastic, because, case: None }, terms });
+        };
+        if alone {
+            let subject = Subject { registry: registry.clone().choosing(kind), case: &own, tolerance };
+            terms.extend(found.solver().terms().iter().filter_map(|term| subject.assess(term)));
+        }
+        let resolved = own.resolved();
+        // The claims of the case are not those of another model.
+        let text = resolved.split("\n[[").next().unwrap_or(&resolved).trim_end();
+        let case = Some(format!("{text}\n"));
+        return Ok(Advice { numbers, least: Least { kind, stochastic, because, case }, terms });
     }
     Err(refused.unwrap_or_else(|| AdviseError::OneModel { model: problem.kind.into() }))
 }

@@ -50,11 +50,11 @@ pub fn nearest<'a>(word: &str, candidates: impl IntoIterator<Item = &'a str>) ->
         .map(|(_, c)| c.to_owned())
 }
 
-/// The schema of the constants of a law, its name aside.
-fn without_law(schema: &Value) -> Value {
+/// The schema of the constants of a law that need not be given, for `usual` has them.
+fn beside(usual: &Map<String, Value>, schema: &Value) -> Value {
     let mut schema = schema.clone();
     if let Some(Value::Array(required)) = schema.get_mut("required") {
-        required.retain(|key| key != "law");
+        required.retain(|key| !key.as_str().is_some_and(|key| usual.contains_key(key)));
     }
     schema
 }
@@ -140,8 +140,7 @@ impl<'k> Walk<'k> {
     /// The value of `node` in plain SI; reports whatever is wrong on the way.
     fn value(&mut self, node: &Node, schema: &Value, path: &str) -> Value {
         if let Some(alternatives) = schema::alternatives(schema) {
-            let usual = schema.pointer("/default/law").and_then(Value::as_str);
-            return self.tagged(node, &alternatives, usual, path);
+            return self.tagged(node, &alternatives, schema.get("default"), path);
         }
         if let Some(constants) = schema::constants(schema) {
             return self.word(node, &constants, path);
@@ -186,7 +185,7 @@ impl<'k> Walk<'k> {
         }
     }
 
-    fn tagged(&mut self, node: &Node, alternatives: &[(&str, &Value)], usual: Option<&str>, path: &str) -> Value {
+    fn tagged(&mut self, node: &Node, alternatives: &[(&str, &Value)], usual: Option<&Value>, path: &str) -> Value {
         // A law without parameters is a word.
         if let Data::Text(_) = &node.data {
             let (key, value) = (node.key.clone(), node.value.clone());
@@ -198,11 +197,19 @@ impl<'k> Walk<'k> {
             return self.wrong(node, path, &format!("a table with law = {}", choices(laws)));
         };
         let law_path = join(path, "law");
-        // A table that gives a constant alone is one of the usual law.
-        let named = entries.iter().any(|(key, _)| key == "law");
-        if let (false, Some((law, schema))) = (named, alternatives.iter().find(|(law, _)| Some(*law) == usual)) {
-            let mut value = self.table(node, &without_law(schema), path);
-            value["law"] = (*law).into();
+        // A table that names no law, or the usual one, has its constants where it gives none.
+        let named = entries.iter().find(|(key, _)| key == "law").map(|(_, node)| &node.data);
+        if let Some(Value::Object(usual)) = usual
+            && let Some(law) = usual.get("law").and_then(Value::as_str)
+            && named.is_none_or(|named| matches!(named, Data::Text(word) if word == law))
+            && let Some((_, schema)) = alternatives.iter().find(|(name, _)| *name == law)
+        {
+            let mut value = self.table(node, &beside(usual, schema), path);
+            if let Value::Object(given) = &mut value {
+                for (key, constant) in usual {
+                    given.entry(key.clone()).or_insert_with(|| constant.clone());
+                }
+            }
             return value;
         }
         match entries.iter().find(|(k, _)| k == "law").map(|(_, n)| n) {

@@ -32,6 +32,7 @@ pub use fault::Fault;
 pub use kind::{FlowTables, Kind, Kinds, Part, text};
 pub use reference::reference;
 pub use render::printable;
+pub use scene::for_model;
 pub use violation::{CaseFault, Span, Violation};
 
 use std::sync::Arc;
@@ -207,8 +208,16 @@ impl Case {
     /// The case as an error: faults that only a comparison of its values shows, by path.
     #[must_use]
     pub fn refuse(self, kinds: &Kinds, faults: Vec<(String, Arc<dyn CaseFault>)>) -> CaseError {
+        // Drives that do not go together say enough of what is missing.
+        let drives: Vec<String> = faults
+            .iter()
+            .filter(|(_, fault)| matches!(fault.downcast_ref(), Some(Fault::Drives { .. })))
+            .map(|(path, _)| format!("{path}."))
+            .collect();
+        let said = |path: &str| drives.iter().any(|table| path.starts_with(table.as_str()));
         let violations = faults
             .into_iter()
+            .filter(|(path, fault)| !(matches!(fault.downcast_ref(), Some(Fault::Needed)) && said(path)))
             .map(|(path, fault)| {
                 let missing = matches!(fault.downcast_ref(), Some(Fault::Needed));
                 let fault = if missing { Arc::new(kinds.missing(self.model, &path)) } else { fault };
@@ -271,7 +280,16 @@ impl CaseError {
             }
         };
         let news = more.violations.into_iter().filter(|v| {
-            let known = |known: &Violation| known.path == v.path || meant(known, &v.path, v.fault.downcast_ref());
+            // A drive that cannot be read is given all the same.
+            let drive = |known: &Violation| match (v.fault.downcast_ref(), known.path.rsplit_once('.')) {
+                (Some(Fault::Drives { allowed, .. }), Some((table, name))) => {
+                    table == v.path && allowed.iter().any(|drives| drives.split(' ').any(|drive| drive == name))
+                }
+                _ => false,
+            };
+            let known = |known: &Violation| {
+                known.path == v.path || drive(known) || meant(known, &v.path, v.fault.downcast_ref())
+            };
             !self.violations.iter().any(known)
         });
         let news: Vec<Violation> = news.collect();

@@ -55,6 +55,14 @@ pub(super) fn within(model: &str, argument: &str) -> String {
     format!("{model}.{}", argument.trim_start())
 }
 
+/// The `--set` arguments that are for `model` where several `models` solve one case: not those that begin with the name of another.
+#[must_use]
+pub fn for_model(model: &str, models: &[String], overrides: &[String]) -> Vec<String> {
+    let first = |argument: &String| argument.split(['.', '=']).next().unwrap_or_default().trim().to_owned();
+    let of_another = |argument: &&String| models.iter().any(|other| other != model && *other == first(argument));
+    overrides.iter().filter(|argument| !of_another(argument)).cloned().collect()
+}
+
 /// The document without the tables of other models.
 pub(super) fn view(document: &Document, kinds: &Kinds, kind: &Kind) -> Node {
     let mut root = document.root.clone();

@@ -13,13 +13,13 @@ use crate::study::chart::{self, Request};
 /// What each model and setting of a scene costs, and how far its answer lies from the best one.
 #[derive(Clone, Debug, Args)]
 pub(super) struct Chart {
-    /// The scene, and other models of it: files or shipped cases; --set is for the first
+    /// The scene, and other models of it: files or shipped cases; --set is for the first file
     #[arg(value_name = "CASE", required = true, num_args = 1..)]
     cases: Vec<String>,
     /// A model that answers the scene; repeat it for several [default: those of the case, or all that take the scene]
     #[arg(long, value_name = "MODEL")]
     model: Vec<String>,
-    /// Change a value of the first case: table.key=value; an empty value removes the key
+    /// Change a value of the first file: table.key=value; an empty value removes the key
     #[arg(long = "set", value_name = "KEY=VALUE")]
     overrides: Vec<String>,
     /// The number that is assessed: a name in summary.json [default: the transport rate, or what the model has instead]

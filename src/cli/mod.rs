@@ -5,6 +5,7 @@
 mod advise;
 mod answers;
 mod calibrate;
+mod case_args;
 mod chart;
 mod check;
 mod compare;
@@ -31,18 +32,19 @@ use std::io::{self, IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Parser, Subcommand};
 use serde_json::{Value, json};
 
 use crate::advise::AdviseError;
 use crate::case::{CaseError, printable};
 use crate::compare::CompareError;
-use crate::model::{Checked, Registry};
+use crate::model::Registry;
 use crate::output::OutputError;
 use crate::result::ErrorReport;
 use crate::study::StudyError;
 use crate::validate::ValidateError;
 use answers::Answers;
+use case_args::{CaseArgs, all_are_right};
 use interrupt::STOPPED;
 
 /// Sediment transport from several models of the same flow, with what each one costs and how far it can be trusted.
@@ -65,6 +67,11 @@ trait Verb {
     /// Its case, if it does the same to one case by each of several models.
     fn case(&mut self) -> Option<&mut CaseArgs> {
         None
+    }
+
+    /// Whether it writes folders of its own accord.
+    fn writes(&self) -> bool {
+        false
     }
 
     /// Where it writes, if that was said: a folder in it where there are several models.
@@ -91,6 +98,10 @@ macro_rules! verbs {
 
             fn case(&mut self) -> Option<&mut CaseArgs> {
                 match self { $(Self::$name(verb) => verb.case(),)* }
+            }
+
+            fn writes(&self) -> bool {
+                match self { $(Self::$name(verb) => verb.writes(),)* }
             }
 
             fn out(&mut self) -> Option<&mut PathBuf> {
@@ -141,33 +152,6 @@ verbs! {
     Completions(completions::Completions),
     /// Print the manual, or write a page for each verb
     Man(man::Man),
-}
-
-/// A case and what to change in it.
-#[derive(Clone, Debug, Args)]
-struct CaseArgs {
-    /// A file, or the name of a shipped case
-    #[arg(value_name = "CASE")]
-    case: String,
-    /// A model that solves it, where the case is a scene or has the tables of several; repeat it for several models
-    #[arg(long, value_name = "MODEL")]
-    model: Vec<String>,
-    /// Change a value: table.key=value; an empty value removes the key
-    #[arg(long = "set", value_name = "KEY=VALUE")]
-    overrides: Vec<String>,
-}
-
-impl CaseArgs {
-    /// The arguments that name this case again.
-    fn as_typed(&self) -> String {
-        let model = self.model.iter().map(|model| format!(" --model {model}"));
-        let overrides = self.overrides.iter().map(|o| format!(" --set \"{o}\""));
-        std::iter::once(self.case.clone()).chain(model).chain(overrides).collect()
-    }
-
-    fn load(&self, registry: &Registry) -> Result<Checked, CliError> {
-        Ok(registry.load(&self.case, &self.overrides)?)
-    }
 }
 
 /// How a verb ended, if not well.
@@ -274,13 +258,19 @@ pub fn execute(registry: &Registry) -> ExitCode {
             Err(error) => ExitCode::from(error.report(json.then_some(&Answers::default()))),
         };
     }
-    // Each model by itself: one that fails does not keep the next from its answer.
     let answers = Answers::several();
     let mut code = 0;
+    if verb.writes()
+        && let Err(error) = all_are_right(registry, &mut verb, &models)
+    {
+        code = error.report(json.then_some(&answers));
+        return ExitCode::from(if json && answers.end().is_err() { 1 } else { code });
+    }
+    // Each model by itself: one that fails does not keep the next from its answer.
     for model in &models {
         let mut one = verb.clone();
         if let Some(case) = one.case() {
-            case.model = vec![model.clone()];
+            *case = case.of(model, &models);
         }
         if let Some(out) = one.out() {
             *out = out.join(model);

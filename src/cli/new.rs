@@ -42,7 +42,8 @@ impl Verb for New {
         }
         write_new(&self.file, content, self.force)?;
         let file = self.file.display();
-        Ok(say(&format!("wrote {file}; next: bedload run {file}\n"))?)
+        let model = shipped.model.map(|model| format!(" --model {model}")).unwrap_or_default();
+        Ok(say(&format!("wrote {file}; next: bedload run {file}{model}\n"))?)
     }
 }
 

@@ -16,9 +16,15 @@ use crate::model::{Problem, Registry};
 use crate::output::{
     CHECKPOINT, Folder, Mode, OutputError, Written, default_folder, write_failure, write_outcome, write_running,
 };
-use crate::result::{Balance, Checkpoints, Context, Cost, Frames, Reported, Status, Summary, quantity};
+use crate::result::{
+    Balance, Checkpoints, Context, Cost, ErrorReport, Frames, Premise, Reported, Status, Summary, Validity, Verdict,
+    quantity,
+};
 use crate::runtime::cost::peak_memory_mb;
 use crate::units::{readable, readable_error, significant};
+
+/// Code of an answer that rests on a broken premise, where that is no answer (`--strict`).
+pub(super) const BROKEN_PREMISE: &str = "broken-premise";
 
 /// Solve a case and write its folder: numbers, tables, report.
 #[derive(Clone, Debug, Args)]
@@ -43,6 +49,9 @@ pub(super) struct Run {
     /// Replace whatever run the folder holds
     #[arg(long)]
     force: bool,
+    /// Exit with code 3 where a premise of the model is broken
+    #[arg(long)]
+    strict: bool,
     /// Go on with an unfinished run of the same case
     #[arg(long)]
     resume: bool,
@@ -64,6 +73,10 @@ impl Verb for Run {
         self.json
     }
 
+    fn writes(&self) -> bool {
+        true
+    }
+
     fn execute(self, registry: &Registry, answers: &Answers) -> Result<(), CliError> {
         let start = Instant::now();
         let (case, problem) = self.case.load(registry)?;
@@ -83,6 +96,22 @@ impl Verb for Run {
         match (written.summary.status, &written.summary.error) {
             (Status::Failed, Some(error)) => Err(CliError::Failed(error.clone(), Some(value))),
             (Status::Stopped, _) => Err(CliError::Stopped(value, written.kept)),
+            _ if self.strict && broken(&written.summary).is_some() => {
+                let error = ErrorReport {
+                    code: BROKEN_PREMISE.into(),
+                    message: broken(&written.summary).unwrap_or_default(),
+                    path: None,
+                    line: None,
+                    allowed: None,
+                    hint: Some(
+                        "another model (`bedload advise`), or another flow; without --strict it is an answer".into(),
+                    ),
+                };
+                if let Value::Object(object) = &mut value {
+                    object.insert("error".into(), serde_json::json!(error));
+                }
+                Err(CliError::Failed(error, Some(value)))
+            }
             _ if self.json => Ok(answers.give(&value)?),
             _ if self.quiet => Ok(()),
             _ => Ok(say(&closing(&written, &out.display().to_string(), &self.case.as_typed()))?),
@@ -211,7 +240,8 @@ impl Frames for Camera<'_> {
 /// What a reader wants to know first, in at most twelve lines.
 fn closing(written: &Written, out: &str, case: &str) -> String {
     let Summary { results, balances, validity, cost, model, .. } = &written.summary;
-    let mut lines = vec![format!("{}: {model}", written.summary.case)];
+    let mut lines: Vec<String> = broken(&written.summary).into_iter().collect();
+    lines.push(format!("{}: {model}", written.summary.case));
     let mut line = |label: &str, text: String| lines.push(format!("  {label:<16} {text}"));
     let value = |q: &'static quantity::Quantity| results.get(q.name).map(|x| readable(x, q.unit));
     if let Some(rate) = value(&quantity::TRANSPORT_RATE) {
@@ -230,16 +260,12 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
         let text: Vec<String> = balances.iter().map(|b| format!("{} {:.0e}", b.name, b.relative.abs())).collect();
         line("balances", format!("{}  (relative)", text.join(", ")));
     }
-    match validity.as_slice() {
-        [] => line("outside range", "nothing".into()),
-        found => {
-            let text: Vec<String> = found
-                .iter()
-                .map(|v| format!("{}: {} = {} ({})", v.closure, v.variable, significant(v.value, 3), v.range))
-                .collect();
-            line("outside range", text.join("; "));
-        }
+    let outside = |v: &Validity| format!("{}: {} = {} ({})", v.closure, v.variable, significant(v.value, 3), v.range);
+    let mut trusted = vec![regime(&written.summary)];
+    if !validity.is_empty() {
+        trusted.push(format!("outside range: {}", validity.iter().map(outside).collect::<Vec<_>>().join("; ")));
     }
+    line("regime", trusted.join("; "));
     let memory = cost.peak_memory_mb.map(|mb| format!(", {mb:.0} MB")).unwrap_or_default();
     line("cost", format!("{:.2} ms to solve, {:.1} ms in all{memory}", 1e3 * cost.solve_s, 1e3 * cost.total_s));
     line("report", format!("{out}/report.html"));
@@ -249,6 +275,30 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
         line("figures", format!("{out}/figures/"));
     }
     lines.join("\n") + "\n"
+}
+
+/// What the flow says of the premises of its model.
+fn regime(summary: &Summary) -> String {
+    let doubtful: Vec<String> = summary.premises(Verdict::Doubtful).map(Premise::line).collect();
+    match (summary.regime.len(), summary.premises(Verdict::Broken).count(), doubtful.as_slice()) {
+        (0, ..) => "no premise of this model is checked".into(),
+        (1, 0, []) => "its premise holds".into(),
+        (n, 0, []) => format!("all {n} premises hold"),
+        (_, 0, doubtful) => format!("doubtful: {}", doubtful.join("; ")),
+        (_, broken, []) => format!("{broken} broken"),
+        (_, broken, doubtful) => format!("{broken} broken; doubtful: {}", doubtful.join("; ")),
+    }
+}
+
+/// The premise that is broken, before everything else.
+fn broken(summary: &Summary) -> Option<String> {
+    let mut broken = summary.premises(Verdict::Broken);
+    let first = broken.next()?;
+    let more = match broken.count() {
+        0 => String::new(),
+        n => format!(" ({n} more in the report)"),
+    };
+    Some(format!("broken premise: {}: {}{more}", first.line(), first.why))
 }
 
 /// What the transport rate is worth.
@@ -285,7 +335,7 @@ fn at_round_off(balances: &[Balance]) -> bool {
 
 /// Numbers of the closing lines, a line each, named by the first.
 const HEADLINES: &[&[&quantity::Quantity]] = &[
-    &[&quantity::SHIELDS, &quantity::U_STAR],
+    &[&quantity::SHIELDS, &quantity::SHIELDS_DRIVE, &quantity::U_STAR],
     &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
     &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],

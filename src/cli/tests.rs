@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
+use super::run::BROKEN_PREMISE;
 use crate::advise::AdviseError;
 use crate::case::Fault;
 use crate::compare::{CompareError, DataFault};
@@ -32,8 +33,8 @@ const ALL: &[(&str, &[&str])] = &all![
     ImpactError NumericalError OutputError RegularisationSize RunError SectionError SectionFault SheetFlowError
     SheetFlowFault StudyError TwoFluidError TwoFluidFault Unfit
 ];
-/// Codes of no type: of the command line itself, and of a point that was stopped.
-const OTHERS: [&str; 3] = ["io", "usage", STOPPED];
+/// Codes of no type: of the command line itself, of a point that was stopped, and of a run of which more is asked than an answer.
+const OTHERS: [&str; 4] = ["io", "usage", STOPPED, BROKEN_PREMISE];
 
 fn project(path: &str) -> std::path::PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)

@@ -199,6 +199,7 @@ pub fn parse(text: &str, stem: &str, source: &str) -> Result<Subject, DataFault>
         errors,
         // What `result` returns always has the form of a result.
         results: serde_json::from_value::<Results>(results.into()).unwrap_or_default(),
+        regime: Vec::new(),
         validity: Vec::new(),
         solve_s: 0.0,
         work: 0.0,

@@ -28,6 +28,7 @@ pub use record::Request;
 
 use crate::plot::{Trace, shared_figures};
 use crate::result::Figure;
+use crate::result::Premise;
 use crate::result::quantity::{self, COLUMNS, Quantity};
 use crate::result::{Outcome, Profile, Results, Status, Summary, TableError, Validity, codes};
 
@@ -63,6 +64,8 @@ pub struct Subject {
     pub errors: Option<Profile>,
     /// named numbers
     pub results: Results,
+    /// premises of its model, and what the flow says of them
+    pub regime: Vec<Premise>,
     /// closures that were used outside their range
     pub validity: Vec<Validity>,
     /// time that its solver took, if it was run for the comparison \[s]
@@ -198,12 +201,26 @@ impl Subject {
         solve_s: f64,
     ) -> Result<Self, CompareError> {
         let profile = outcome.profile.ok_or_else(|| CompareError::NoProfile { subject: source.into() })?;
-        let Outcome { results, validity, work, .. } = outcome;
+        let Outcome { results, regime, validity, work, .. } = outcome;
         let (name, source) = (name.into(), source.into());
         let (kind, notes) = (Kind::Case, Vec::new());
         let errors = profile.standard_errors();
         let stated = None;
-        Ok(Self { name, label: model, kind, source, notes, profile, errors, results, validity, solve_s, work, stated })
+        Ok(Self {
+            name,
+            label: model,
+            kind,
+            source,
+            notes,
+            profile,
+            errors,
+            results,
+            regime,
+            validity,
+            solve_s,
+            work,
+            stated,
+        })
     }
 
     /// A run as its folder `source` holds it.
@@ -215,12 +232,12 @@ impl Subject {
             return Err(CompareError::NotDone { subject: source.into(), status: summary.status });
         }
         let profile = profile.ok_or_else(|| CompareError::NoProfile { subject: source.into() })?;
-        let Summary { results, validity, case: name, model: label, scene, .. } = summary;
+        let Summary { results, regime, validity, case: name, model: label, scene, .. } = summary;
         let (kind, source, notes) = (Kind::Run, source.into(), Vec::new());
         let errors = profile.standard_errors();
         let stated = scene.map(|scene| Stated { scene, ..Stated::default() });
         let (solve_s, work) = (0.0, 0.0);
-        Ok(Self { name, label, kind, source, notes, profile, errors, results, validity, solve_s, work, stated })
+        Ok(Self { name, label, kind, source, notes, profile, errors, results, regime, validity, solve_s, work, stated })
     }
 
     fn lacks(&self, quantity: &'static Quantity, needed_by: &'static str) -> CompareError {

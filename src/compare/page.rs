@@ -3,6 +3,7 @@
 use super::{Comparison, Deviation, Kind, NormRow};
 use crate::plot::{Cell, Document, Section, document_html};
 use crate::result::Figure;
+use crate::result::Verdict;
 use crate::result::quantity::{self, Quantity};
 use crate::result::{Cost, Provenance};
 use crate::units::{readable, significant};
@@ -31,7 +32,13 @@ impl Comparison {
     /// What a reader must know to take the numbers for what they are.
     #[must_use]
     pub fn warnings(&self) -> Vec<String> {
-        let mut found = Vec::new();
+        let mut found: Vec<String> = Vec::new();
+        for (verdict, word) in [(Verdict::Broken, "broken"), (Verdict::Doubtful, "doubtful")] {
+            for subject in &self.subjects {
+                let of = subject.regime.iter().filter(|premise| premise.verdict == verdict);
+                found.extend(of.map(|premise| format!("A premise of {} is {word}: {}.", subject.name, premise.line())));
+            }
+        }
         let beds: Vec<f64> = self.views.iter().filter_map(|v| v.bed).collect();
         let (low, high) = beds.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &z| (a.min(z), b.max(z)));
         // levels as they are read off a figure do not agree to more than about a hundredth

@@ -45,6 +45,7 @@ impl Comparison {
                 "shift_m": view.shift_m,
                 "scales": view.scales,
                 "results": subject.results,
+                "regime": subject.regime,
                 "validity": subject.validity,
                 "scene": subject.stated.as_ref().map(|stated| &stated.scene),
                 "solid_volume_m": subject.solid_volume(),

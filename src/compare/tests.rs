@@ -22,6 +22,7 @@ pub(super) fn bed(name: &str, level: f64) -> Subject {
         profile,
         errors: None,
         results,
+        regime: Vec::new(),
         validity: Vec::new(),
         solve_s: 0.0,
         work: 0.0,

@@ -19,7 +19,7 @@ use std::sync::Arc;
 
 use crate::case::{CaseFault, Fault, FlowTables, Part};
 use crate::closures::Info;
-use crate::result::{CheckpointError, Context, Failure, Figure, Outcome};
+use crate::result::{CheckpointError, Context, Failure, Figure, Outcome, Premise, Results};
 use crate::scene::Scene;
 
 pub use offer::{
@@ -169,6 +169,11 @@ pub trait Solve: Debug + Send + Sync + 'static {
     /// Its solution under the exact yield in closed form, if it has one and that can be evaluated.
     fn closed_form(&self) -> Option<Box<dyn ClosedForm>> {
         None
+    }
+
+    /// What the model takes for granted, and what its scene and its results say of it.
+    fn premises(&self, _scene: &Scene, _results: &Results) -> Vec<Premise> {
+        Vec::new()
     }
 
     /// What in the model that flow may not need.

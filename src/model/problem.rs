@@ -86,6 +86,10 @@ impl Problem {
             if let Some(theta) = self.scene.as_ref().and_then(Scene::shields_drive) {
                 outcome.results.set(&q::SHIELDS_DRIVE, theta);
             }
+            if let Some(scene) = &self.scene {
+                outcome.regime = self.solver.premises(scene, &outcome.results);
+                outcome.regime.retain(|premise| premise.value.is_finite());
+            }
             let figures = self.solver.figures(&self.name, outcome);
             outcome.figures.extend(figures.into_iter().map(Figure::finite));
         };

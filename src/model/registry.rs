@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::problem::checks;
 use super::takes::takes;
 use super::{Checked, Faults, Flow, Model, ModelInfo, Offer, Problem, Solve};
-use crate::case::{Case, CaseError, CaseFault, Fault, FlowTables, Kind, Kinds};
+use crate::case::{Case, CaseError, CaseFault, Fault, FlowTables, Kind, Kinds, Violation};
 use crate::scene::Scene;
 
 /// The flow of a case and a problem of some model, if its values allow one; or that the tables are none of the model's.
@@ -121,7 +121,20 @@ impl Registry {
     /// # Errors
     /// Every violation of both kinds, as far as the values could be read.
     pub fn load(&self, name: &str, overrides: &[String]) -> Result<Checked, CaseError> {
-        self.check(Case::load(&self.kinds, name, overrides))
+        self.check(Case::load(&self.kinds, name, overrides)).map_err(|error| match error.choices() {
+            Some(choices) if choices.alone => self.of_the_flow(name, overrides, choices.models).unwrap_or(error),
+            _ => error,
+        })
+    }
+
+    /// What is wrong with a scene alone: what every one of `models` says of it, if none of them takes it.
+    fn of_the_flow(&self, name: &str, overrides: &[String], models: &[String]) -> Option<CaseError> {
+        let with = |model: &String| self.clone().choosing(model).load(name, overrides).err();
+        let mut errors: Vec<CaseError> = models.iter().map(with).collect::<Option<_>>()?;
+        let mut first = errors.pop()?;
+        let same = |a: &Violation, b: &Violation| a.path == b.path && a.fault.to_string() == b.fault.to_string();
+        first.violations.retain(|v| errors.iter().all(|error| error.violations.iter().any(|other| same(v, other))));
+        (!first.violations.is_empty()).then_some(first)
     }
 
     /// The cases that `name` stands for, as names that [`Self::load`] takes: with each of `models`; without any with those that the case

@@ -49,6 +49,7 @@ fn begin(head: &Head) -> Summary {
         scene: head.scene.clone(),
         results: Results::default(),
         balances: Vec::new(),
+        regime: Vec::new(),
         validity: Vec::new(),
         regularisation: Map::new(),
         error: None,
@@ -128,6 +129,7 @@ pub fn write_failure(
 fn fill(summary: &mut Summary, outcome: &Outcome, cost: Cost) {
     summary.results = outcome.results.clone();
     summary.balances = outcome.balances.clone();
+    summary.regime = outcome.regime.clone();
     summary.validity = outcome.validity.clone();
     summary.regularisation = outcome.regularisation.clone();
     summary.cost = Cost { work_units: outcome.work, ..cost };

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use crate::result::Verdict;
 use crate::result::quantity::{self, RESULTS};
 use crate::result::{Animation, Reported, Statement, Status, Summary};
 use crate::units::{readable, readable_mean, significant};
@@ -55,6 +56,7 @@ pub fn report_html(page: &Page<'_>) -> String {
         escape(&summary.model)
     );
     html += &error(summary, !page.figures.is_empty());
+    html += &regime(summary);
     html += &results(summary);
     html += &balances(summary);
     html += &validity(summary);
@@ -98,6 +100,38 @@ fn error(summary: &Summary, drawn: bool) -> String {
         html += "<p>What follows is the last good state.</p>";
     }
     html + "</section>\n"
+}
+
+/// What the model takes for granted and this flow does not give it; nothing where every premise holds.
+fn regime(summary: &Summary) -> String {
+    let broken = summary.premises(Verdict::Broken).count();
+    if broken + summary.premises(Verdict::Doubtful).count() == 0 {
+        return String::new();
+    }
+    let (class, title) = if broken > 0 {
+        ("bad", "A premise of the model is broken")
+    } else {
+        ("warn", "A premise of the model is doubtful")
+    };
+    let mut html = format!(
+        "<section class=\"alert {class}\" id=\"regime\"><h2>{title}</h2><div class=\"wide\"><table><thead><tr>\
+         <th>premise</th><th>number</th><th class=\"num\">value</th><th>range</th><th>source</th></tr></thead><tbody>"
+    );
+    for verdict in [Verdict::Broken, Verdict::Doubtful] {
+        for premise in summary.premises(verdict) {
+            let why = if verdict == Verdict::Broken { format!("broken: {}", premise.why) } else { "doubtful".into() };
+            html += &format!(
+                "<tr><td>{}, <b>{}</b></td><td>{}</td><td class=\"num\">{}</td><td>{}</td><td>{}</td></tr>",
+                escape(&premise.premise),
+                escape(&why),
+                escape(&premise.number),
+                typeset(&significant(premise.value, 3)),
+                escape(&premise.range),
+                escape(&premise.source),
+            );
+        }
+    }
+    html + "</tbody></table></div></section>\n"
 }
 
 /// Closures outside their range.

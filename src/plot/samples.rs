@@ -23,6 +23,7 @@ fn summary(case: &str, model: &str, results: Results) -> Summary {
             relative: 3.1e-16,
             how: "stress at the bottom against drive times depth".into(),
         }],
+        regime: Vec::new(),
         validity: vec![Validity {
             closure: "mixture_viscosity/einstein".into(),
             variable: "phi".into(),

@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value};
 
+use super::Premise;
 use super::{
     Animation, Balance, Failure, Field, Figure, NumericalError, Profile, Results, Series, SideView, Statement, Status,
     Validity, quantity as q,
@@ -21,6 +22,8 @@ pub struct Outcome {
     pub results: Results,
     /// global balances: relative residuals
     pub balances: Vec<Balance>,
+    /// what the model takes for granted, and what this flow says of it
+    pub regime: Vec<Premise>,
     /// closures that were used outside their range
     pub validity: Vec<Validity>,
     /// every small number that the run used, by name
@@ -49,6 +52,7 @@ impl Outcome {
             series: None,
             results: Results::default(),
             balances: Vec::new(),
+            regime: Vec::new(),
             validity: Vec::new(),
             regularisation: Map::new(),
             field: None,

@@ -247,6 +247,7 @@ catalogue! {
     WALL_SHEAR = "wall_shear_stress_Pa", "shear stress on the walls", "τ", "Pa", "of grains between two walls, the same at every height";
     WALL_HEAT = "wall_heat_W_m2", "fluctuation energy from the walls", "q_w", "W/m²", "that enters through both walls together";
     UNLIMITED = "unlimited_from_phi", "solid fraction from which saltation limits nothing", "φ_0", "1", "lowest solid fraction of the flow at which a kinetic part of the theory is not positive";
+    REYNOLDS_GAP = "reynolds_gap", "Reynolds number of the gap", "Re_h", "1", "ρ_f U h/η, U the mean velocity over the gap h that the fluid has to itself";
     REYNOLDS = "reynolds", "Reynolds number", "Re", "1", "ρ_f U_m H/η";
 }
 

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
 
 use super::{Estimate, Provenance, Quantity, SceneRecord};
+use super::{Premise, Verdict};
 
 /// State of a run folder.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -199,6 +200,9 @@ pub struct Summary {
     pub results: Results,
     /// global balances
     pub balances: Vec<Balance>,
+    /// premises of the model, and what this flow says of them
+    #[serde(default)]
+    pub regime: Vec<Premise>,
     /// closures used outside their range
     pub validity: Vec<Validity>,
     /// every small number that the run used
@@ -213,6 +217,11 @@ pub struct Summary {
 }
 
 impl Summary {
+    /// The premises with this verdict.
+    pub fn premises(&self, verdict: Verdict) -> impl Iterator<Item = &Premise> {
+        self.regime.iter().filter(move |premise| premise.verdict == verdict)
+    }
+
     /// Layout version that this program writes.
     pub const FORMAT: u32 = 1;
 

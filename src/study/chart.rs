@@ -12,7 +12,7 @@ use serde_json::json;
 
 use super::Assess;
 use super::curves::error_text;
-use super::ladder::{KEY, rungs};
+use super::ladder::{KEY, accepted, overrides_of, rungs};
 use super::{Assessment, Plan, Point, Row, StudyError};
 use crate::model::{Problem, Registry};
 use crate::output::read_run;
@@ -49,7 +49,7 @@ const EXCESS: f64 = 2.0;
 pub struct Request {
     /// the scene, and other models of it: files or shipped cases
     pub cases: Vec<String>,
-    /// `--set` arguments, for the first
+    /// `--set` arguments, for the first and other models of its file
     pub overrides: Vec<String>,
     /// name of the number that is assessed
     pub quantity: Option<String>,
@@ -83,11 +83,14 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Assess), St
     let Some((first, others)) = request.cases.split_first() else {
         return Err(StudyError::BadOver { argument: String::new(), reason: "there is no case".into() });
     };
-    let (_, problem) = registry.load(first, &request.overrides).map_err(Box::new)?;
-    let mut points = accepted(registry, rungs(None, &problem), first, &request.overrides);
+    let overrides = overrides_of(&request.cases, &request.overrides, first);
+    let (_, problem) = registry.load(first, &overrides).map_err(Box::new)?;
+    let mut points = accepted(registry, rungs(None, &problem), first, &overrides);
     for case in others {
-        let problem = registry.load(case, &[]).map_err(Box::new)?.1;
-        let mut more = accepted(registry, rungs(Some(case), &problem), case, &[]);
+        let overrides = overrides_of(&request.cases, &request.overrides, case);
+        let problem = registry.load(case, &overrides).map_err(Box::new)?.1;
+        let mut more = accepted(registry, rungs(Some(case), &problem), case, &overrides);
+        more.iter_mut().for_each(|point| point.overrides = [&overrides, point.overrides.as_slice()].concat());
         let alone = more.iter().all(|point| point.series == problem.kind);
         for point in &mut more {
             point.series = if alone { case.clone() } else { format!("{case}, {}", point.series) };
@@ -107,7 +110,7 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Assess), St
     let plan = Plan {
         verb: "chart",
         case: first.clone(),
-        overrides: request.overrides.clone(),
+        overrides,
         options,
         varied: vec![KEY.into()],
         points,
@@ -115,12 +118,6 @@ pub fn plan(registry: &Registry, request: &Request) -> Result<(Plan, Assess), St
     };
     let name = request.quantity.clone();
     Ok((plan, Box::new(move |rows: &[Row]| assess(rows, name.as_deref(), given.or(exact).as_ref()))))
-}
-
-/// The points that their case accepts.
-fn accepted(registry: &Registry, points: Vec<Point>, case: &str, overrides: &[String]) -> Vec<Point> {
-    let fits = |point: &Point| registry.load(case, &[overrides, &point.overrides].concat()).is_ok();
-    points.into_iter().filter(fits).collect()
 }
 
 /// A value with its standard error, if a reference has it.

@@ -4,7 +4,8 @@
 //! out: the ladder of a model is longer than any one of its cases allows.
 
 use super::Point;
-use crate::model::{Problem, Rung};
+use crate::case::for_model;
+use crate::model::{Problem, Registry, Rung};
 
 /// What is varied, as a column of the table.
 pub(super) const KEY: &str = "setting";
@@ -24,12 +25,32 @@ pub(super) fn rungs(case: Option<&str>, problem: &Problem) -> Vec<Point> {
     rungs.into_iter().map(point).collect()
 }
 
+/// The points that their case accepts.
+pub(super) fn accepted(registry: &Registry, points: Vec<Point>, case: &str, overrides: &[String]) -> Vec<Point> {
+    let fits = |point: &Point| registry.load(case, &[overrides, &point.overrides].concat()).is_ok();
+    points.into_iter().filter(fits).collect()
+}
+
+/// The `--set` arguments of one of `cases`: `overrides` are for the first and for other models of its file.
+pub(super) fn overrides_of(cases: &[String], overrides: &[String], case: &str) -> Vec<String> {
+    let Some(first) = cases.first() else { return Vec::new() };
+    let (Some((file, model)), Some((same, _))) = (case.rsplit_once(':'), first.rsplit_once(':')) else {
+        return if case == first { overrides.to_vec() } else { Vec::new() };
+    };
+    if file != same {
+        return Vec::new();
+    }
+    let models: Vec<String> =
+        cases.iter().filter_map(|case| case.rsplit_once(':')).map(|(_, model)| model.to_owned()).collect();
+    for_model(model, &models, overrides)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     /// Rungs of a shipped case that the case accepts, by series.
-    fn accepted(case: &str) -> Vec<(String, usize)> {
+    fn series(case: &str) -> Vec<(String, usize)> {
         let registry = crate::models::builtin();
         let (_, problem) = registry.load(case, &[]).unwrap();
         let mut series: Vec<(String, usize)> = Vec::new();
@@ -49,8 +70,8 @@ mod tests {
     }
 
     #[test]
-    fn the_rungs_are_cases_that_are_accepted() {
-        let counts = |case| accepted(case).iter().map(|(_, n)| *n).collect::<Vec<_>>();
+    fn the_rungs_are_cases_that_are_series() {
+        let counts = |case| series(case).iter().map(|(_, n)| *n).collect::<Vec<_>>();
         assert_eq!(counts("bed_ouriemi-laminar"), [6, 12, 12, 12]);
         assert_eq!(counts("bingham_1d_plane"), [6, 12, 12, 12]);
         assert_eq!(counts("sheet_1d_sumer91"), [6, 6, 6]);

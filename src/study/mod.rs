@@ -34,6 +34,7 @@ use serde_json::{Map, Value};
 use crate::case::{CaseError, nearest};
 use crate::compare::DataError;
 use crate::output::{OutputError, default_folder};
+use crate::result::Premise;
 use crate::result::{Class, Cost, ErrorReport, Field, Figure, Profile, Results, Status, codes};
 
 pub use errors::Reference;
@@ -90,6 +91,8 @@ pub struct Row {
     pub class: Option<Class>,
     /// its numbers \[SI]
     pub results: Results,
+    /// premises of its model that are broken
+    pub broken: Vec<Premise>,
     /// evaluations of the residual, where something was iterated
     pub iterations: Option<usize>,
     /// what it cost when it was run

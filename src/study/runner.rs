@@ -18,6 +18,7 @@ use crate::output::{
     write_outcome, write_running,
 };
 use crate::result::Context;
+use crate::result::Verdict;
 use crate::result::{Cost, ErrorReport, Provenance, Results, Snapshot, Status, Watch};
 use crate::runtime::cost::peak_memory_mb;
 
@@ -149,7 +150,8 @@ fn carry_out(
         rows.extend(more);
         Ok((rows, resumed + again, assess))
     })?;
-    let assessment = assess(&rows);
+    let mut assessment = assess(&rows);
+    assessment.findings.splice(0..0, premises(&rows));
     let status = match () {
         () if rows.iter().any(|row| row.status == Status::Stopped) => Status::Stopped,
         () if assessment.failure.is_some() && settings.observer.stop() => Status::Stopped,
@@ -238,10 +240,18 @@ fn run(
     Ok((rows.collect(), resumed.into_inner()))
 }
 
+/// What a reader wants to know before everything else: points whose model is not meant for them.
+fn premises(rows: &[Row]) -> Option<(String, String)> {
+    let broken: Vec<&Row> = rows.iter().filter(|row| !row.broken.is_empty()).collect();
+    let first = broken.first()?.broken.first()?;
+    Some(("broken premise".into(), format!("{} of {} points, the first: {}", broken.len(), rows.len(), first.line())))
+}
+
 /// The run in `place`, if it is done and may be taken as it is.
 fn finished(place: &Path, mode: Mode) -> Option<Row> {
     let (summary, profile) = read_run(place).ok().filter(|_| mode.resume)?;
     (summary.status == Status::Done).then(|| Row {
+        broken: summary.premises(Verdict::Broken).cloned().collect(),
         results: summary.results,
         iterations: read_series(place).map(|series| series.rows()),
         cost: summary.cost,
@@ -287,6 +297,7 @@ fn solve(
         Ok(outcome) => {
             let written = write_outcome(&mut folder, summary, &head, &outcome, cost, false)?.summary;
             Row {
+                broken: written.premises(Verdict::Broken).cloned().collect(),
                 results: written.results,
                 iterations: outcome.series.as_ref().map(|series| series.rows()),
                 cost: written.cost,
@@ -334,6 +345,7 @@ impl Row {
             status,
             error,
             class: None,
+            broken: Vec::new(),
             results: Results::default(),
             iterations: None,
             cost: Cost::default(),

@@ -9,7 +9,7 @@ fn the_least_model_follows_the_scene_and_the_tolerance() {
         ("bed_ouriemi-laminar", "0.05", "laminar-exact"),
         ("laminar_1d_muiv", "0.05", "laminar"),
         ("sheet_1d_sumer91", "0.05", "sheet-flow"),
-        ("flow_theta04_quick", "0.3", "sheet-flow"),
+        ("flow_theta04_quick", "0.3", "two-fluid"),
         ("flow_theta04_quick", "0.15", "two-fluid"),
         ("flow_theta04_quick", "0.05", "coupled"),
         // At 0.2 kinetic theory misses half of the transport.

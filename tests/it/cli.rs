@@ -62,7 +62,7 @@ fn run_ends_with_at_most_twelve_lines() {
         let answer = scratch.bedload(["run", case]).exits(0);
         let lines: Vec<&str> = answer.out.lines().collect();
         assert!((5..=12).contains(&lines.len()), "{case}: {} lines", lines.len());
-        for label in ["balances", "outside range", "cost", "report", "next"] {
+        for label in ["balances", "regime", "cost", "report", "next"] {
             let found = lines.iter().filter(|l| l.trim_start().starts_with(label)).count();
             assert_eq!(found, 1, "{label} in\n{}", answer.out);
         }

@@ -32,7 +32,7 @@ fn a_new_folder_holds_the_contract() {
     assert_eq!(scratch.names(out), ["case.toml", "figures", "page.json", "profile.csv", "report.html", "summary.json"]);
     let summary = scratch.summary(out);
     let keys: Vec<&str> = summary.as_object().unwrap().keys().map(String::as_str).collect();
-    let wanted = "format status case model scene results balances validity regularisation cost provenance";
+    let wanted = "format status case model scene results balances regime validity regularisation cost provenance";
     assert_eq!(keys.join(" "), wanted);
     assert_eq!((&summary["format"], &summary["status"], &summary["case"]), (&json!(1), &json!("done"), &json!(CASE)));
     for name in

@@ -93,6 +93,7 @@ fn page_is_sound(problem: &Problem, case: &Case, outcome: &Outcome) -> Result<()
         scene: problem.scene.as_ref().map(bedload::scene::Scene::record),
         results: outcome.results.clone(),
         balances: outcome.balances.clone(),
+        regime: Vec::new(),
         validity: outcome.validity.clone(),
         regularisation: Map::new(),
         error: None,

@@ -34,9 +34,8 @@ pub static INFO: Info = Info {
 /// Settling against turbulent diffusion.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct Rouse {
-    /// Settling velocity of the grains; left out, it is that of a sphere alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 100.0))]
+    /// Settling velocity of the grains [m/s], of the scene.
+    #[serde(skip)]
     pub settling_velocity: Option<f64>,
 }
 

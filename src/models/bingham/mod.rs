@@ -9,11 +9,15 @@ use crate::closures::regularisation::Regularisation;
 use crate::model::{ClosedForm, Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
 use crate::models::exact::bingham::PLANE;
 use crate::models::exact::bingham::{BinghamPlane, plane};
+use crate::models::premises;
 use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::part;
 use crate::result::Context;
+use crate::result::Premise;
+use crate::result::Results;
 use crate::result::{Failure, Outcome};
 use crate::scene::ChannelScene;
+use crate::scene::Scene;
 
 part! {
     /// Bingham fluid between two planes: regularised, or with the exact yield.
@@ -73,6 +77,10 @@ impl Solve for OnMesh<RegularisedPlane> {
     fn drive(&self) -> Option<SteadyDrive> {
         let plane = &self.problem.plane;
         Some(SteadyDrive::of(plane.shear_scale() * plane.h, "more grid.cells"))
+    }
+
+    fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
+        premises::laminar(&premises::LAMINAR, results).into_iter().collect()
     }
 
     fn cells(&self) -> usize {

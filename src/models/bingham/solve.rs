@@ -10,7 +10,7 @@ use crate::models::laminar::element::Element;
 use crate::models::laminar::mesh::{Layer, Mesh};
 use crate::models::laminar::outcome::{look, small_numbers, spread, yield_text};
 use crate::models::laminar::single::{self, Solved};
-use crate::models::premises;
+
 use crate::numerics::root::brent;
 use crate::result::{Failure, NumericalError, Outcome, Profile, Results, TableError, Watch, quantity as q};
 use crate::units::significant;
@@ -120,8 +120,7 @@ pub fn run(problem: &RegularisedPlane, cells: usize, watch: &mut dyn Watch) -> R
         balances.push(balance("solver", *last, "last residual of the iteration"));
     }
     let profile = look(watch).then(|| profile(plane, y, &solution)).transpose()?;
-    let validity = results.get(q::REYNOLDS.name).and_then(premises::laminar).into_iter().collect();
-    let mut outcome = outcome(profile, solution.solved.history.clone(), results, balances, validity)?;
+    let mut outcome = outcome(profile, solution.solved.history.clone(), results, balances, Vec::new())?;
     outcome.regularisation = small_numbers(regularisation, plane.shear_scale());
     Ok(outcome)
 }

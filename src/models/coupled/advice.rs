@@ -4,8 +4,12 @@ use std::f64::consts::PI;
 
 use super::{Coupled, Surface};
 use crate::closures::fluctuation::Fluctuation;
+use crate::closures::side_wall::SideWall;
 use crate::dem::Bottom;
 use crate::model::{BULK_FRICTION, COLLISIONS, Effort, Model, Offer, OwnCase, PACKED, Term, TermTest, TurbulentScene};
+use crate::models::{load, premises};
+use crate::result::Premise;
+use crate::scene::BedScene;
 use crate::units::significant;
 
 const MAURIN: &str = "Maurin et al. (2015); docs/coupled.md";
@@ -89,4 +93,23 @@ pub(super) fn offer(scene: &TurbulentScene, tolerance: f64) -> Offer {
         format!("θ = {theta}, and no continuum is known to be within {wanted} of the grains here")
     };
     Offer { effort: Effort::Minutes, because, case: OwnCase::Scene(Vec::new()) }
+}
+
+/// What grains in a fluid take for granted.
+pub(super) fn premises(grains: &Coupled, of: &BedScene) -> Vec<Premise> {
+    let (bed, flow) = (&grains.bed, scene(grains));
+    let layers = bed.mobile as f64 * bed.d * bed.d / (bed.size[0] * bed.size[1].max(bed.d));
+    let weight = (bed.rho_p - grains.rho_f) * bed.g;
+    let rigid = load(Some(layers), weight, bed.d).map(|p| bed.contact.k_n / (p * bed.d));
+    let rest = thickness(grains) / bed.d - flow.layers();
+    let found = [
+        premises::RIGID.maybe(rigid),
+        premises::AT_REST.maybe(Some(rest).filter(|_| bed.bottom == Bottom::Slice)),
+        premises::SUBMERGED.maybe(Some(flow.depth / flow.d)),
+        premises::NO_SUSPENSION.maybe(Some(of.settling_velocity().value() / flow.u_star())),
+        premises::rests(of, BULK_FRICTION, PACKED),
+        premises::SMOOTH_WALLS
+            .maybe(Some(flow.depth / bed.size[1]).filter(|_| bed.side_walls && grains.side_wall == SideWall::None)),
+    ];
+    found.into_iter().flatten().collect()
 }

@@ -1,8 +1,8 @@
 //! What a coupled run reports: profiles with their errors, transport rate, Shields numbers, balances.
 
+use super::Surface;
 use super::freeze::FrozenBed;
 use super::record::Sample;
-use super::Surface;
 use super::run::Run;
 use super::theory;
 use crate::closures::contact::linear_spring::RIGID_RANGE;

@@ -14,6 +14,9 @@ use crate::dem::drive::accepts;
 use crate::dem::{Bottom, GrainBed};
 use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
 use crate::models::BedFault;
+use crate::result::Premise;
+use crate::result::Results;
+use crate::scene::Scene;
 
 use crate::models::{layers, load};
 use crate::result::Context;
@@ -230,6 +233,11 @@ impl Solve for Coupled {
 
     fn cells(&self) -> usize {
         self.bed.mobile
+    }
+
+    fn premises(&self, scene: &Scene, _: &Results) -> Vec<Premise> {
+        let Scene::Bed(scene) = scene else { return Vec::new() };
+        advice::premises(self, scene)
     }
 
     fn flow(&self) -> Result<Option<Flow>, Failure> {

@@ -12,8 +12,9 @@ use crate::closures::friction::{self, Coulomb, MuIv};
 use crate::closures::mixture_viscosity::{MixtureViscosity, RelativeViscosity};
 use crate::closures::role::{Only, choice};
 use crate::model::{Faults, Flow, LaminarScene, Term, TermTest};
-use crate::models::BedFault;
 use crate::models::exact::ExactFault;
+use crate::models::{BedFault, premises};
+use crate::result::{Premise, Results, quantity as q};
 use crate::scene::BedScene;
 
 /// One velocity for fluid and grains, or two.
@@ -201,6 +202,12 @@ impl LaminarBed {
             two_velocities: self.drag.is_some(),
             k_ck: self.drag.map(|drag| drag.k_ck),
         })
+    }
+
+    /// What the bed takes for granted, from what was found.
+    pub(in crate::models) fn premises(&self, results: &Results) -> Vec<Premise> {
+        let drag = self.drag.and_then(|_| premises::DARCY.maybe(results.get(q::REYNOLDS_PARTICLE.name)));
+        premises::laminar(&premises::LAMINAR, results).into_iter().chain(drag).collect()
     }
 
     /// The slip between the phases, if there are two velocities.

@@ -1,9 +1,9 @@
 //! The numbers of a laminar bed, the same for the closed form and for the solvers.
 
-use crate::closures::drag::carman_kozeny;
+use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::{Info, Range};
 use crate::models::exact::bed::{Drive, LaminarBed};
-use crate::models::premises::{self, outside};
+use crate::models::premises::outside;
 use crate::result::{Results, Validity, quantity as q};
 
 /// A continuum layer is at least one grain thick.
@@ -90,6 +90,7 @@ impl BedNumbers {
         results.set(&q::DRIVE, drive);
         results.set(&q::DRIVE_DIMENSIONLESS, self.f);
         results.set(&q::REYNOLDS, bed.rho_f * discharge / bed.eta);
+        results.set(&q::REYNOLDS_GAP, self.bulk_reynolds(bed));
         results.set(&q::REYNOLDS_PARTICLE, self.particle_reynolds(bed));
         results
     }
@@ -102,23 +103,19 @@ impl BedNumbers {
         bed.rho_f * discharge * bed.velocity_scale() * bed.h / bed.eta
     }
 
-    /// Closures used outside their range, and a flow that is not laminar.
+    /// Closures used outside their range.
     pub fn validity(&self, bed: &LaminarBed) -> Vec<Validity> {
         let viscosity = bed.viscosity.info();
         let mut found: Vec<Validity> = Vec::new();
-        for range in viscosity.ranges {
+        // Einstein's law is for dilute suspensions, which no bed is: docs/theory.md says so once.
+        for range in viscosity.ranges.iter().filter(|_| bed.viscosity != MixtureViscosity::Einstein) {
             found.extend(outside(closure_name(viscosity), range, bed.phi));
-        }
-        if bed.drag.is_some() {
-            let re_p = self.particle_reynolds(bed);
-            found.extend(outside(closure_name(&carman_kozeny::INFO), &carman_kozeny::REYNOLDS_RANGE, re_p));
         }
         if self.moves(bed) {
             let grains = (bed.h_p - self.h_c * bed.h) / bed.d;
             found.extend(outside("continuum/mobile layer".into(), &THICKNESS, grains));
         }
         found.extend(outside("continuum/static layer".into(), &REST, self.h_c * bed.h / bed.d));
-        found.extend(premises::laminar(self.bulk_reynolds(bed)));
         found
     }
 }

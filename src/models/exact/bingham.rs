@@ -15,7 +15,7 @@ pub(in crate::models) use super::bingham_case::PLANE;
 pub(in crate::models) use super::bingham_case::plane;
 pub use super::bingham_case::{BinghamDrive, BinghamPlane};
 use super::{Column, balance, no_root, outcome, tabulate};
-use crate::models::premises;
+
 use crate::numerics::levels::{between_walls, graded};
 use crate::numerics::quadrature::simpson;
 use crate::numerics::root::brent;
@@ -134,8 +134,7 @@ pub fn run(plane: &BinghamPlane, cells: usize, watch: &mut dyn Watch) -> Result<
         balances.push(balance("discharge", integral / (solution.mean() * plane.h) - 1.0, how));
     }
     let results = results(plane, &solution);
-    let validity = results.get(q::REYNOLDS.name).and_then(premises::laminar).into_iter().collect();
-    outcome(profile, history, results, balances, validity)
+    outcome(profile, history, results, balances, Vec::new())
 }
 
 fn results(plane: &BinghamPlane, solution: &Solution) -> Results {

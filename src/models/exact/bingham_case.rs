@@ -3,10 +3,14 @@
 use super::bingham::{equations, run};
 use crate::case::tables::Grid;
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve};
+use crate::models::premises;
 use crate::part;
 use crate::result::Context;
+use crate::result::Premise;
+use crate::result::Results;
 use crate::result::{Failure, Outcome};
 use crate::scene::ChannelScene;
+use crate::scene::Scene;
 
 part! {
     /// Bingham fluid between two planes, in closed form.
@@ -84,6 +88,10 @@ impl Solve for OnMesh<BinghamPlane> {
 
     fn describe(&self) -> Description {
         Description { form: None, equations: equations(&self.problem), laws: Vec::new() }
+    }
+
+    fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
+        premises::laminar(&premises::LAMINAR, results).into_iter().collect()
     }
 
     fn cells(&self) -> usize {

@@ -17,8 +17,11 @@ use crate::models::exact::bed::{BedDrag, BedLaws, Form, LaminarBed, einstein, la
 use crate::models::yielding::{RegularisationTable, YieldGrid, size};
 use crate::part;
 use crate::result::Context;
+use crate::result::Premise;
+use crate::result::Results;
 use crate::result::{Failure, Outcome};
 use crate::scene::BedScene;
+use crate::scene::Scene;
 use crate::units::significant;
 
 /// Laws of the laminar bed.
@@ -173,6 +176,10 @@ impl Solve for OnMesh<RegularisedBed> {
 
     fn flow(&self) -> Result<Option<Flow>, Failure> {
         Ok(Some(self.problem.bed.scene(Self::INFO.name)))
+    }
+
+    fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
+        self.problem.bed.premises(results)
     }
 
     fn terms(&self) -> Vec<Term> {

@@ -11,10 +11,11 @@ use super::numbers::Numbers;
 use super::solve::Solution;
 use crate::closures::drag::carman_kozeny;
 use crate::closures::friction::coulomb;
+use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::models::exact::ouriemi::viscosity_text;
-use crate::models::premises::{self, outside};
+use crate::models::premises::outside;
 use crate::models::section::SectionError;
 use crate::models::section::{Contents, DuctFlow, Method, Outline};
 use crate::result::{
@@ -116,7 +117,7 @@ pub fn run(flow: &DuctFlow, cells: usize, watch: &mut dyn Watch) -> Result<Outco
         series,
         results,
         balances,
-        validity: validity(flow, &numbers),
+        validity: validity(flow),
         regularisation,
         field: Some(field),
         ..Outcome::stopped()
@@ -142,6 +143,7 @@ fn results(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Results {
     let area = flow.outline.area() * h * h;
     let rate = numbers.flow_rate * shear * h.powi(3);
     let mut results = Results::default();
+    results.set(&q::REYNOLDS_GAP, reynolds_gap(flow, numbers));
     results.set(&q::FLOW_RATE, rate);
     results.set(&q::FLOW_RATE_DIMENSIONLESS, numbers.flow_rate);
     results.set(&q::U_MAX, numbers.u_max.value * shear * h);
@@ -291,9 +293,20 @@ fn field(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Field {
     Field { across, up, places: (0..divided.mesh.nodes()).map(place).collect(), columns }
 }
 
-/// Laws used outside their range, and a flow that is not laminar in the gap: over the bed, and between the side walls where
-/// those are nearer.
-fn validity(flow: &DuctFlow, numbers: &Numbers) -> Vec<Validity> {
+/// Laws used outside their range.
+fn validity(flow: &DuctFlow) -> Vec<Validity> {
+    let Contents::Bed(bed) = &flow.contents else { return Vec::new() };
+    // Einstein's law is for dilute suspensions, which no bed is: docs/theory.md says so once.
+    if bed.viscosity == MixtureViscosity::Einstein {
+        return Vec::new();
+    }
+    let info = bed.viscosity.info();
+    let name = || format!("{}/{}", info.family, info.law);
+    info.ranges.iter().filter_map(|range| outside(name(), range, bed.phi)).collect()
+}
+
+/// Reynolds number of the gap: over the bed, and between the side walls where those are nearer.
+fn reynolds_gap(flow: &DuctFlow, numbers: &Numbers) -> f64 {
     let (rho, height) = match &flow.contents {
         Contents::Bingham { rho, .. } => (*rho, 1.0),
         Contents::Bed(bed) => (bed.rho_f, 1.0 - bed.h_p / bed.h),
@@ -302,12 +315,7 @@ fn validity(flow: &DuctFlow, numbers: &Numbers) -> Vec<Validity> {
         Outline::Rectangle { width } => height.min(width),
         Outline::Circle | Outline::Planes => height,
     };
-    let velocity = numbers.clear * flow.shear_scale() * flow.h;
-    let turbulent = premises::laminar(rho * velocity * gap * flow.h / flow.viscosity());
-    let Contents::Bed(bed) = &flow.contents else { return turbulent.into_iter().collect() };
-    let info = bed.viscosity.info();
-    let name = || format!("{}/{}", info.family, info.law);
-    info.ranges.iter().filter_map(|range| outside(name(), range, bed.phi)).chain(turbulent).collect()
+    rho * numbers.clear * flow.shear_scale() * flow.h * gap * flow.h / flow.viscosity()
 }
 
 /// The equations that are solved, with their numbers.

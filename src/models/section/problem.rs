@@ -6,10 +6,14 @@ use crate::case::tables::Shape;
 use crate::closures::regularisation::{Regularisation, Smoothing};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
+use crate::models::premises;
 use crate::models::section::SectionFault;
 use crate::models::yielding::size;
 use crate::result::Context;
+use crate::result::Premise;
+use crate::result::Results;
 use crate::result::{Failure, Outcome};
+use crate::scene::Scene;
 use crate::scene::{BedScene, BenchmarkScene, ChannelScene, Section};
 
 /// Outline of a section whose height is 1.
@@ -178,6 +182,14 @@ fn solver(
     })
 }
 
+impl DuctFlow {
+    /// A laminar flow in the gap, and a viscous drag where there are two phases.
+    fn premises(&self, results: &Results) -> Vec<Premise> {
+        let rule = if self.outline == Outline::Circle { premises::LAMINAR_PIPE } else { premises::LAMINAR };
+        premises::laminar(&rule, results).into_iter().collect()
+    }
+}
+
 /// A yield-stress fluid along a duct.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Duct(pub OnMesh<DuctFlow>);
@@ -261,6 +273,10 @@ impl Solve for Duct {
         self.0.drive()
     }
 
+    fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
+        self.0.problem.premises(results)
+    }
+
     fn cells(&self) -> usize {
         self.0.cells
     }
@@ -281,6 +297,10 @@ impl Solve for DuctBed {
 
     fn drive(&self) -> Option<SteadyDrive> {
         self.0.drive()
+    }
+
+    fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
+        self.0.problem.premises(results)
     }
 
     fn cells(&self) -> usize {

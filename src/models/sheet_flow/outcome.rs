@@ -26,11 +26,6 @@ use crate::result::{
     Balance, Failure, NumericalError, Outcome, Results, Snapshot, SolveError, Validity, Watch, quantity as q,
 };
 
-/// A continuum layer is at least a few grains thick.
-const THICKNESS: Range = Range { variable: "sheet_thickness_m/d", min: 3.0, max: f64::INFINITY };
-/// Sheet flow proper.
-const SHEET: Range = Range { variable: "shields", min: 0.5, max: f64::INFINITY };
-
 /// A given settling velocity over that of a sphere of this diameter and density: cylinders of Sumer et al. (1996) have 0.93.
 const SETTLING: Range = Range { variable: "w_s over that of a sphere", min: 0.667, max: 1.5 };
 
@@ -75,7 +70,7 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     let layers = Layers::new(&solved.column, &solved.state);
     refuse(sheet, &solved, &layers)?;
     let results = results(sheet, &solved, &layers);
-    let validity = validity(sheet, &results, &layers);
+    let validity = validity(sheet, &layers);
     let profile = profile(sheet, &solved, &layers)?;
     let balances = balances(&solved, &layers);
     let mut outcome = outcome(Some(profile), solved.history.clone(), results, balances, validity)?;
@@ -272,7 +267,7 @@ fn balances<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Balance>
 }
 
 /// Closures used outside their range.
-fn validity<F: FrictionLaw>(sheet: &SheetFlow<F>, results: &Results, layers: &Layers) -> Vec<Validity> {
+fn validity<F: FrictionLaw>(sheet: &SheetFlow<F>, layers: &Layers) -> Vec<Validity> {
     let at = |info: &Info, range: &Range, value: f64, z: f64| {
         outside(closure_name(info), range, value).map(|v| Validity { z_m: Some(z * sheet.d), ..v })
     };
@@ -299,12 +294,6 @@ fn validity<F: FrictionLaw>(sheet: &SheetFlow<F>, results: &Results, layers: &La
         let buoyant = (sheet.rho_p / sheet.rho_f - 1.0) * sheet.g;
         let sphere = settling::sphere(buoyant, sheet.eta / sheet.rho_f, sheet.d);
         found.extend(outside("grains/settling velocity".into(), &SETTLING, w_s / sphere));
-    }
-    if let Some(thickness) = results.get(q::SHEET_THICKNESS.name) {
-        found.extend(outside("continuum/moving layer".into(), &THICKNESS, thickness / sheet.d));
-    }
-    if let Some(shields) = results.get(q::SHIELDS.name) {
-        found.extend(outside("continuum/sheet flow".into(), &SHEET, shields));
     }
     found
 }

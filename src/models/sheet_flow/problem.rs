@@ -17,12 +17,16 @@ use crate::model::{
     COLLISIONS, Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, OwnCase, Solve, SteadyDrive,
     StudyPlan, Term, TermTest, TurbulentScene,
 };
+use crate::models::premises;
 use crate::models::sheet_flow::SheetFlowFault;
 use crate::models::{BedFault, RegularisationSize};
 use crate::result::Context;
+use crate::result::Premise;
+use crate::result::Results;
 use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
 use crate::scene::BedScene;
+use crate::scene::Scene;
 use crate::units::significant;
 
 /// How the pseudo-time iteration steps, and when it ends.
@@ -138,7 +142,9 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             faults.push(("closures.mixture_viscosity.phi_max", fault));
         }
         let lid = flow.top.lid()?;
-        let sine = flow.sine().ok();
+        // Over a bed whose grains are given the level follows: the slope of the flow is what is the same for every model.
+        let slope = scene.slope().filter(|_| table.bed_level == BedLevel::AtRest && flow.slope.is_none());
+        let sine = slope.map_or_else(|| flow.sine().ok(), |slope| Some(Some(slope.sin())));
         let (mu_s, mu_2) = (friction.least(), friction.most());
         if mu_2 <= mu_s {
             faults.push(("closures.friction.mu_2", BedFault::FrictionFalls { mu_s, mu_2 }));
@@ -175,6 +181,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             // Where the depth follows from the stress, depth and slope are the drive, as for every model of this scene.
             tau_b: match (flow.shields, flow.u_star) {
                 _ if flow.depth.is_none() => None,
+                _ if slope.is_some() => None,
                 (Some(shields), _) => Some(shields * (grains.density - fluid.density) * flow.gravity * grains.diameter),
                 (None, Some(u_star)) => Some(fluid.density * u_star * u_star),
                 (None, None) => None,
@@ -271,6 +278,28 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
             walls: false,
             grains: None,
         })))
+    }
+
+    fn premises(&self, scene: &Scene, results: &Results) -> Vec<Premise> {
+        let (Scene::Bed(scene), flow) = (scene, &self.problem) else { return Vec::new() };
+        let of = |quantity: &q::Quantity| results.get(quantity.name);
+        let (depth, k_s) = (flow.height - flow.level, of(&q::ROUGHNESS));
+        let rough = of(&q::U_STAR).zip(k_s).map(|(u_star, k_s)| u_star * k_s * flow.rho_f / flow.eta);
+        let mut found = vec![
+            premises::SHEET.maybe(of(&q::SHIELDS)),
+            premises::MANY_LAYERS.maybe(of(&q::SHEET_THICKNESS).map(|thickness| thickness / flow.d)),
+            premises::SHALLOW_ROUGHNESS.maybe(k_s.map(|k_s| k_s / depth)),
+            premises::ROUGH_WALL.maybe(rough),
+            premises::PACKED_AS_THE_LAW.maybe(scene.bed.phi.map(|phi| (flow.dilatancy.phi_max - phi).abs())),
+            premises::AT_REST.maybe(of(&q::YIELD_LEVEL).map(|level| level / flow.d)),
+        ];
+        if flow.lid == Lid::FreeSurface {
+            found.push(premises::rests(scene, flow.friction.least(), flow.dilatancy.phi_max));
+        }
+        if flow.suspension == Suspension::None {
+            found.push(premises::no_suspension(scene));
+        }
+        found.into_iter().flatten().collect()
     }
 
     fn terms(&self) -> Vec<Term> {

@@ -14,10 +14,15 @@ use crate::model::{
     StudyPlan, TurbulentScene,
 };
 use crate::models::BedFault;
+use crate::models::premises;
 use crate::models::two_fluid::TwoFluidFault;
 use crate::result::Context;
+use crate::result::Premise;
+use crate::result::Results;
+use crate::result::quantity as q;
 use crate::result::{Failure, Figure, Outcome};
 use crate::scene::BedScene;
+use crate::scene::Scene;
 use crate::units::significant;
 
 /// How a flow is followed in time.
@@ -234,6 +239,27 @@ impl Solve for OnMesh<TwoFluid> {
 
     fn cells(&self) -> usize {
         self.cells
+    }
+
+    fn premises(&self, scene: &Scene, results: &Results) -> Vec<Premise> {
+        let (Scene::Bed(scene), flow) = (scene, &self.problem) else { return Vec::new() };
+        let of = |quantity: &q::Quantity| results.get(quantity.name);
+        let stokes = |heat: f64| flow.rho_p * flow.d * heat.sqrt() / (9.0 * flow.eta);
+        let kinetic = !matches!(flow.granular, Granular::Inertial(_));
+        let driven = flow.beta > 0.0;
+        let mu_s = of(&q::STATIC_FRICTION).unwrap_or(BULK_FRICTION);
+        let found = [
+            premises::COLLISIONS.maybe(of(&q::TEMPERATURE_MAX).map(stokes).filter(|_| kinetic)),
+            premises::KINETIC_SHIELDS.maybe(scene.shields_drive().filter(|_| kinetic && driven)),
+            premises::KINETIC_RESTITUTION.maybe(Some(flow.e).filter(|_| kinetic)),
+            premises::KINETIC_FRICTION.maybe(Some(flow.mu_p).filter(|_| kinetic)),
+            premises::AT_REST.maybe(of(&q::LAYER_BOTTOM).map(|bottom| bottom / flow.d)),
+            premises::SUBMERGED.maybe(Some(flow.depth / flow.d).filter(|_| driven)),
+            premises::no_suspension(scene).filter(|_| flow.dispersion == Dispersion::None && driven),
+            premises::PACKED_BED.maybe(Some(flow.phi)),
+            premises::rests(scene, mu_s, flow.phi).filter(|_| driven),
+        ];
+        found.into_iter().flatten().collect()
     }
 
     fn flow(&self) -> Result<Option<Flow>, Failure> {

@@ -3,6 +3,9 @@
 use super::{equations, run};
 use crate::case::tables::Grid;
 use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, OwnCase, Solve, Term};
+use crate::result::Premise;
+use crate::result::Results;
+use crate::scene::Scene;
 
 use crate::models::exact::bed::{BedClosures, Form, LaminarBed, laminar_bed};
 use crate::part;
@@ -74,6 +77,10 @@ impl Solve for OnMesh<LaminarBed> {
 
     fn flow(&self) -> Result<Option<Flow>, Failure> {
         Ok(Some(self.problem.scene(Self::INFO.name)))
+    }
+
+    fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
+        self.problem.premises(results)
     }
 
     fn terms(&self) -> Vec<Term> {
