@@ -86,24 +86,23 @@ fn unsolved<F: FrictionLaw>(
     setting: &Setting,
     failed: NotConverged,
 ) -> SolveError {
+    // Stress on the interface: given, or of the fluid over it.
+    let tau_b = setting
+        .tau_b
+        .unwrap_or_else(|| flow.fluid_weight(setting.sine.unwrap_or_default()) * (setting.height - setting.level));
+    let nothing_at_rest = SheetFlowError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
+    // It alone needs this much weight of grains to be held.
+    let held = tau_b < flow.friction.least() * flow.dilatancy.phi_max * setting.level;
     match failed.reason {
         Some(Reason::RunsAway(level)) => {
             return SheetFlowError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d }.into();
         }
-        Some(Reason::AllMove) => {
-            let tau_b = setting.tau_b.unwrap_or_else(|| {
-                let room = setting.height - setting.level;
-                flow.fluid_weight(setting.sine.unwrap_or_default()) * room
-            });
-            return SheetFlowError::NothingAtRest { bed_m: sheet.level, shields: tau_b }.into();
-        }
+        Some(Reason::AllMove) => return nothing_at_rest.into(),
         Some(Reason::Jammed(carried)) => return SheetFlowError::Jammed { carried }.into(),
         None => {}
     }
-    // The stress of the interface alone needs this much weight of grains to be held.
-    let grains = flow.dilatancy.phi_max * setting.level;
-    if let Some(tau_b) = setting.tau_b.filter(|tau_b| *tau_b >= flow.friction.least() * grains) {
-        return SheetFlowError::NothingAtRest { bed_m: sheet.level, shields: tau_b }.into();
+    if setting.tau_b.is_some() && !held {
+        return nothing_at_rest.into();
     }
     // Grains at rest in a deep bed carry the slope of the whole mixture, at most mu_s P_p.
     let sine = setting.sine.or_else(|| {
@@ -116,6 +115,9 @@ fn unsolved<F: FrictionLaw>(
         if drive >= flow.friction.least() * cosine {
             return BedError::NoStaticBed { drive, limit: flow.friction.least() * cosine }.into();
         }
+    }
+    if !held {
+        return nothing_at_rest.into();
     }
     SolveError::not_converged(failed.residual, failed.iterations)
 }
