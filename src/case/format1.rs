@@ -11,6 +11,7 @@ pub(crate) const OF_THE_FLOW: [&str; 5] = ["case", "fluid", "grains", "bed", "fl
 
 /// The cases of one model in format 1.
 #[derive(Debug)]
+#[cfg_attr(not(feature = "cli"), expect(dead_code, reason = "what was left unsaid is read by `bedload migrate`"))]
 pub(crate) struct Form {
     /// `kind` or `kind/solution` in `[model]`
     pub old: &'static str,
