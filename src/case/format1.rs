@@ -23,8 +23,8 @@ pub(crate) struct Form {
     pub moved: &'static [(&'static str, &'static str)],
     /// what a case of format 1 left unsaid and one of format 2 says: the top of the flow
     pub top: Option<&'static str>,
-    /// a law that was none where it was left out, and has another default now
-    pub law: Option<(&'static str, &'static str)>,
+    /// what was left out and has another default now: where it stood, and what it was
+    pub unsaid: &'static [(&'static str, &'static str)],
     /// and what a slope without a word for it was
     pub slope: Option<&'static str>,
 }
@@ -54,7 +54,7 @@ pub(crate) const FORMS: [Form; 16] = [
         model: "laminar-exact",
         moved: &[LEVEL, HEIGHT, FORM],
         top: Some("plane"),
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -63,7 +63,7 @@ pub(crate) const FORMS: [Form; 16] = [
         model: "bingham-exact",
         moved: &[HEIGHT],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -72,7 +72,7 @@ pub(crate) const FORMS: [Form; 16] = [
         model: "bagnold-film",
         moved: &[("flow.height", "bed.thickness")],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -81,7 +81,7 @@ pub(crate) const FORMS: [Form; 16] = [
         model: "log-law",
         moved: &[HEIGHT],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -90,17 +90,17 @@ pub(crate) const FORMS: [Form; 16] = [
         model: "laminar",
         moved: &[LEVEL, HEIGHT, FORM],
         top: Some("plane"),
-        law: None,
+        unsaid: &[],
         slope: None,
     },
-    Form { old: "bingham", scene: "channel", model: "bingham", moved: &[HEIGHT], top: None, law: None, slope: None },
+    Form { old: "bingham", scene: "channel", model: "bingham", moved: &[HEIGHT], top: None, unsaid: &[], slope: None },
     Form {
         old: "section/duct",
         scene: "channel",
         model: "duct",
         moved: &[HEIGHT, SHAPE, SECTION_WIDTH, METHOD],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -109,7 +109,7 @@ pub(crate) const FORMS: [Form; 16] = [
         model: "duct-bed",
         moved: &[LEVEL, HEIGHT, SHAPE, SECTION_WIDTH, FORM, METHOD],
         top: Some("plane"),
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -123,7 +123,7 @@ pub(crate) const FORMS: [Form; 16] = [
             METHOD,
         ],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -140,7 +140,7 @@ pub(crate) const FORMS: [Form; 16] = [
             ("solver.turns", ".solver.max_iterations"),
         ],
         top: None,
-        law: Some(("closures.suspension", "none")),
+        unsaid: &[("bed.reading", "in-flow"), ("closures.suspension", "none")],
         slope: Some("sine"),
     },
     Form {
@@ -149,7 +149,7 @@ pub(crate) const FORMS: [Form; 16] = [
         model: "two-fluid",
         moved: &[("bed.phi_max", ".phi_max"), ("model.state", ".state"), ("model.fluid_stress", ".fluid_stress")],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -166,7 +166,7 @@ pub(crate) const FORMS: [Form; 16] = [
             ("flow.temperature_upper", ".geometry.temperature_upper"),
         ],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -184,7 +184,7 @@ pub(crate) const FORMS: [Form; 16] = [
             RESTITUTION,
         ],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: Some("tangent"),
     },
     Form {
@@ -207,7 +207,7 @@ pub(crate) const FORMS: [Form; 16] = [
             RESTITUTION,
         ],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -223,7 +223,7 @@ pub(crate) const FORMS: [Form; 16] = [
             RESTITUTION,
         ],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
     Form {
@@ -238,7 +238,7 @@ pub(crate) const FORMS: [Form; 16] = [
             RESTITUTION,
         ],
         top: None,
-        law: None,
+        unsaid: &[],
         slope: None,
     },
 ];

@@ -15,7 +15,7 @@ use super::{Answers, CliError, Verb, colour, say};
 use crate::case::format1::{ACROSS, Form, HEIGHT, OF_THE_FLOW, TOP_HEIGHT};
 use crate::case::printable;
 use crate::model::Registry;
-use pieces::{bare, behind, comments, decor_of, decorated, difference, law, line, over, raw, spaced};
+use pieces::{bare, behind, comments, decor_of, decorated, difference, law, line, over, packing, raw, spaced};
 
 /// Write a case of format 1 in format 2: the flow, and the table of its model. Comments, units and what was left out stay as they are.
 #[derive(Clone, Debug, Args)]
@@ -273,8 +273,14 @@ impl Moving<'_> {
         if let Some(top) = self.form.top.filter(|_| !self.from.contains_key("flow.top")) {
             self.put("flow.top", Decor::default(), toml_edit::value(top));
         }
-        if let Some((law, none)) = self.form.law.filter(|(law, _)| !self.has(law)) {
-            self.put(&self.form.place(law), Decor::default(), toml_edit::value(none));
+        let form = self.form;
+        for (old, was) in form.unsaid {
+            if !self.has(old) {
+                self.put(&form.place(old), Decor::default(), toml_edit::value(*was));
+            }
+        }
+        if let Some(phi) = self.new.get(form.model).and_then(packing) {
+            self.put("bed.phi", Decor::default(), toml_edit::value(phi));
         }
         let Some(usual) = self.form.slope else { return };
         let Some(flow) = self.new.get("flow").and_then(Item::as_table) else { return };

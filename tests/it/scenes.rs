@@ -272,6 +272,22 @@ fn a_migrated_case_keeps_its_model_and_the_checks_of_one_line() {
 }
 
 #[test]
+fn a_migrated_bed_keeps_its_grains() {
+    let scratch = Scratch::new();
+    let old =
+        std::fs::read_to_string(format!("{}/tests/format1/sheet_1d_sumer91.toml", env!("CARGO_MANIFEST_DIR"))).unwrap();
+    let reading = "reading = \"final\"";
+    assert!(old.contains(reading));
+    scratch.write("rest.toml", old.replace(reading, "reading = \"initial\""));
+    let rest = scratch.bedload(["migrate", "rest.toml", "-"]).exits(0).out;
+    assert!(rest.contains("bed_level = \"at-rest\"") && rest.contains("\nphi = 0.62\n"), "{rest}");
+    // What was left out was the level in the flow, and is another thing now.
+    scratch.write("flow.toml", old.lines().filter(|line| !line.starts_with(reading)).collect::<Vec<_>>().join("\n"));
+    let flow = scratch.bedload(["migrate", "flow.toml", "-"]).exits(0).out;
+    assert!(flow.contains("bed_level = \"in-flow\"") && !flow.contains("\nphi = 0.62\n"), "{flow}");
+}
+
+#[test]
 fn a_case_that_cannot_be_migrated_is_not_and_one_that_does_not_check_is_named() {
     let scratch = Scratch::new();
     let height = "height = \"100 mm\"";
@@ -331,6 +347,8 @@ fn a_scene_alone_is_checked_explained_advised_and_compared() {
     let compared = ["compare", "sand.toml", "--model", "sheet-flow", "--model", "two-fluid", "--json"];
     let compared = scratch.bedload(compared).exits(0).json();
     assert_eq!(compared["subjects"].as_array().map(Vec::len), Some(2));
+    let grains = |i: usize| compared["subjects"][i]["solid_volume_m"].as_f64().unwrap();
+    assert!((grains(0) / 0.024 - 1.0).abs() < 1e-9 && (grains(1) / grains(0) - 1.0).abs() < 1e-6, "{compared}");
     let advised = scratch.bedload(["advise", "sand.toml", "--tolerance", "0.3", "--write", "least.toml"]).exits(0).out;
     assert!(advised.contains("Shields number"), "{advised}");
     scratch.bedload(["check", "least.toml"]).exits(0);

@@ -1,5 +1,6 @@
 //! What `bedload migrate` moves: comments, laws, and the depth that a height leaves over its bed.
 
+use crate::closures::dilatancy::PhiI;
 use toml_edit::{Decor, Document, InlineTable, Item, Key, RawString, Table, Value};
 
 use crate::units::parse_quantity;
@@ -136,4 +137,11 @@ pub(super) fn difference(height: &Value, level: &Value) -> Option<Value> {
         }
         _ => depth(metres(height)?, metres(level)?).map(Value::from),
     }
+}
+
+/// Solid fraction at which the sheet flow of format 1 packed a bed at rest: phi_max of its dilatancy.
+pub(super) fn packing(model: &Item) -> Option<f64> {
+    let at_rest = model.get("bed_level")?.as_str() == Some("at-rest");
+    let given = || model.get("closures")?.get("dilatancy")?.get("phi_max")?.as_float();
+    at_rest.then(|| given().unwrap_or(PhiI::default().phi_max))
 }

@@ -128,12 +128,12 @@ impl Default for SheetSolver {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum BedLevel {
-    /// The thickness of the bed is that of the bed in the flow, up to the interface; the amount of grains follows.
+    /// It is that of the bed at rest: its grains, bed.phi times the thickness, are those of every model of the scene. They are
+    /// conserved between bed and suspension, and the interface in the flow follows.
     #[default]
-    InFlow,
-    /// It is that of the bed at rest, packed at phi_max; the amount of grains is conserved between bed and suspension, and the
-    /// interface in the flow follows.
     AtRest,
+    /// The thickness of the bed is that of the bed in the flow, up to the interface; the amount of grains follows.
+    InFlow,
 }
 
 /// Laws of the sheet flow; the top and the settling velocity are those of the flow and of the grains.

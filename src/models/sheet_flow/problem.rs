@@ -55,7 +55,7 @@ pub struct SheetFlow<F = MuI> {
     pub g: f64,
     /// flow height \[m]
     pub height: f64,
-    /// bed level \[m]
+    /// bed level, in the flow or at rest packed at phi_max \[m]
     pub level: f64,
     /// what the bed level is
     pub bed_level: BedLevel,
@@ -121,21 +121,27 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
     fn build(scene: &BedScene, table: &SheetTable<F>, faults: &mut Faults) -> Option<Self> {
         let BedScene { fluid, grains, flow, .. } = scene;
         let SheetTable { closures, regularisation, solver, .. } = table;
-        let level = faults.needed("bed.thickness", scene.bed.thickness);
+        let thickness = faults.needed("bed.thickness", scene.bed.thickness);
         let depth = faults.needed("flow.depth", scene.depth());
-        let (level, depth) = (level?, depth?);
-        let height = level + depth;
+        let (thickness, depth) = (thickness?, depth?);
+        let height = thickness + depth;
         if depth <= 0.0 {
             faults.push(("flow.depth", BedFault::NoDepth));
         }
-        if level < grains.diameter {
-            faults.push(("bed.thickness", BedFault::ThinnerThanAGrain { level, diameter: grains.diameter }));
+        if thickness < grains.diameter {
+            let fault = BedFault::ThinnerThanAGrain { level: thickness, diameter: grains.diameter };
+            faults.push(("bed.thickness", fault));
         }
         if grains.density <= fluid.density {
             faults.push(("grains.density", BedFault::Floating { grains: grains.density, fluid: fluid.density }));
         }
         let (Only(friction), Only(dilatancy)) = (closures.friction, closures.dilatancy);
         let (Only(drag), Only(mixing_length)) = (closures.drag, closures.mixing_length);
+        // The grains of the bed of the scene, at rest as this model packs them.
+        let level = match table.bed_level {
+            BedLevel::AtRest => thickness * (scene.bed.phi().value() / dilatancy.phi_max),
+            BedLevel::InFlow => thickness,
+        };
         let phi_max = closures.mixture_viscosity.phi_max();
         if phi_max < dilatancy.phi_max {
             let fault = SheetFlowFault::PackedBeyond { law: "the viscosity", phi_max, bed: dilatancy.phi_max };
