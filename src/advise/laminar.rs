@@ -26,7 +26,7 @@ pub(super) fn numbers(scene: &LaminarScene, solved: Option<&Results>) -> Vec<Num
         let says = if re < 1000.0 { "laminar" } else { "not laminar: take sheet-flow or grains" };
         numbers.push(Number { name: "Reynolds number ρ_f U H/η", value: re, says: says.into() });
     }
-    if let Ok(fall) = scene.drive {
+    if let Some(fall) = scene.drive.or(result(q::DRIVE.name)) {
         let f = fall * scene.h / stress;
         let b = (mu_s * scene.phi - f) / e;
         let depth = 1.0 - scene.h_p / scene.h;

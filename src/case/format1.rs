@@ -207,7 +207,7 @@ pub(crate) const FORMS: [Form; 16] = [
             RESTITUTION,
         ],
         top: None,
-        unsaid: &[],
+        unsaid: &[("closures.side_wall", "none")],
         slope: None,
     },
     Form {

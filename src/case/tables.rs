@@ -67,6 +67,17 @@ pub struct Oscillation {
     pub period: f64,
 }
 
+/// A moment of a recorded series.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub struct Moment {
+    /// When.
+    #[schemars(extend("x-unit" = "s", "minimum" = 0.0, "maximum" = 1e9))]
+    pub time: f64,
+    /// Fall of pressure along the flow then, -dp/dx.
+    #[schemars(extend("x-unit" = "Pa/m", "minimum" = -1e9, "maximum" = 1e9))]
+    pub pressure_gradient: f64,
+}
+
 /// Outline of a cross-section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]

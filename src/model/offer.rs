@@ -32,8 +32,8 @@ pub struct LaminarScene {
     pub h: f64,
     /// gravity [m/s2]
     pub g: f64,
-    /// fall of pressure along the flow [Pa/m], or the Shields number that is wanted
-    pub drive: Result<f64, f64>,
+    /// fall of pressure along the flow [Pa/m], where it is not solved for
+    pub drive: Option<f64>,
     /// friction of the grains at vanishing shear rate
     pub mu_s: f64,
     /// friction of the grains at large shear rates, where that is more

@@ -8,7 +8,7 @@ use crate::closures::drag::CarmanKozeny;
 use crate::closures::friction::{Coulomb, MuIv};
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::regularisation::Regularisation;
-use crate::models::exact::bed::{Drive, LaminarBed};
+use crate::models::exact::bed::{Drive, LaminarBed, Wanted};
 use crate::models::laminar::RegularisedBed;
 use crate::result::{Outcome, Profile, Quantity, Quiet, quantity as q};
 
@@ -183,7 +183,7 @@ fn grains_drift_through_the_fluid_as_darcy_says_of_their_packing() {
 #[test]
 fn a_wanted_shields_number_is_the_one_that_results() {
     for drag in [None, Some(CarmanKozeny { k_ck: 180.0, phi_min: 0.0 })] {
-        let bed = LaminarBed { drive: Drive::Shields(0.5), ..bed(drag) };
+        let bed = LaminarBed { drive: Drive::Wanted(Wanted::Shields, 0.5), ..bed(drag) };
         let problem = RegularisedBed { bed, regularisation: Regularisation::EXACT, yield_node: true };
         let closed = ouriemi::run(&bed, CELLS, &mut Quiet).unwrap();
         let solver = laminar::run(&problem, CELLS, &mut Quiet).unwrap();

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Given, Grains, SceneNumber};
 use crate::case::Fault;
-use crate::case::tables::{Fluid, Oscillation, Shape, SlopeDefinition, standard_gravity};
+use crate::case::tables::{Fluid, Moment, Oscillation, Shape, SlopeDefinition, standard_gravity};
 use crate::closures::lid::{self, Lid};
 use crate::closures::settling;
 
@@ -20,7 +20,7 @@ use crate::closures::settling;
 const KAPPA: f64 = 0.41;
 
 /// A flow over a bed of grains.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedScene {
     /// The fluid.
     pub fluid: Fluid,
@@ -62,7 +62,7 @@ impl Bed {
 
 /// The clear fluid over a bed, and what drives it: under a free surface two of depth, slope and stress (shields or u_star), under a lid or a
 /// plane the depth and one drive.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub struct BedFlow {
     /// Depth of the clear fluid over the bed at rest; left out, it follows from the drive or from the top.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -97,6 +97,14 @@ pub struct BedFlow {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-unit" = "Pa/m", "exclusiveMinimum" = 0.0, "maximum" = 1e9))]
     pub pressure_gradient: Option<f64>,
+    /// Drive: discharge of the fluid per unit width.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m2/s", "exclusiveMinimum" = 0.0, "maximum" = 1e6))]
+    pub discharge: Option<f64>,
+    /// Drive: mean velocity of fluid and grains over bed and flow.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-unit" = "m/s", "exclusiveMinimum" = 0.0, "maximum" = 1e3))]
+    pub mean_velocity: Option<f64>,
     /// Acceleration of gravity.
     #[schemars(extend("x-unit" = "m/s2", "exclusiveMinimum" = 0.0, "maximum" = 1000.0))]
     #[serde(default = "standard_gravity")]
@@ -104,6 +112,9 @@ pub struct BedFlow {
     /// Waves: a pressure gradient that goes to and fro, besides the steady drive.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub oscillation: Option<Oscillation>,
+    /// Waves as they were measured: a pressure gradient at moments, straight between them, besides the steady drive.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub recorded: Vec<Moment>,
 }
 
 impl BedFlow {
@@ -120,9 +131,18 @@ impl BedFlow {
             shields: None,
             u_star: None,
             pressure_gradient: None,
+            discharge: None,
+            mean_velocity: None,
             gravity,
             oscillation: None,
+            recorded: Vec::new(),
         }
+    }
+
+    /// Whether a pressure gradient goes to and fro.
+    #[must_use]
+    pub fn waves(&self) -> bool {
+        self.oscillation.is_some() || !self.recorded.is_empty()
     }
 
     /// Angle with the horizontal \[rad] of the slope, if there is one.
@@ -237,7 +257,7 @@ impl BedScene {
     pub fn shields_drive(&self) -> Option<f64> {
         let flow = &self.flow;
         let weight = || {
-            let (depth, sine) = (self.depth()?, flow.sine().ok()??);
+            let (depth, sine) = (self.depth()?, flow.sine().ok()?.or(self.slope().map(f64::sin))?);
             (flow.top == Top::FreeSurface)
                 .then(|| self.fluid.density * flow.gravity * depth * sine / self.stress_scale())
         };

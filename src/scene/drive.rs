@@ -37,11 +37,17 @@ impl BedScene {
         }
         let stress = given([("shields", flow.shields.is_some()), ("u_star", flow.u_star.is_some())]);
         let slope = given([("slope", flow.slope.is_some())]);
-        let gradient = given([("pressure_gradient", flow.pressure_gradient.is_some())]);
+        let closed = given([
+            ("pressure_gradient", flow.pressure_gradient.is_some()),
+            ("discharge", flow.discharge.is_some()),
+            ("mean_velocity", flow.mean_velocity.is_some()),
+        ]);
         let depth = given([("depth", flow.depth.is_some())]);
         let fault = match flow.top {
             Top::FreeSurface => {
-                let all = [depth, slope, stress.clone()].concat();
+                // Waves alone, over a level bed.
+                let level = flow.waves() && slope.is_empty() && stress.is_empty() && !depth.is_empty();
+                let all = [depth, slope, stress.clone(), closed].concat();
                 let allowed = [
                     "depth and slope",
                     "depth and shields",
@@ -49,23 +55,44 @@ impl BedScene {
                     "slope and shields",
                     "slope and u_star",
                 ];
-                (all.len() != 2 || stress.len() > 1).then(|| drives(&all, &allowed))
+                let enough = all.len() == if level { 1 } else { 2 } && stress.len() <= 1;
+                let known = all.iter().all(|drive| ["depth", "slope", "shields", "u_star"].contains(drive));
+                (!enough || !known).then(|| drives(&all, &allowed))
             }
             Top::Solved => {
-                let all = [slope.clone(), stress.clone()].concat();
-                (slope.len() != 1 || stress.len() != 1)
+                let all = [slope.clone(), stress.clone(), closed.clone()].concat();
+                (slope.len() != 1 || stress.len() != 1 || !closed.is_empty())
                     .then(|| drives(&all, &["slope and shields", "slope and u_star"]))
             }
             Top::OverFixedGrains { .. } => {
-                let all = [depth, slope.clone(), stress].concat();
+                let all = [depth, slope.clone(), stress, closed].concat();
                 (all != slope || slope.is_empty()).then(|| drives(&all, &["slope"]))
             }
-            Top::Plane | Top::Stress(_) | Top::ColebrookWhite(_) => {
-                let all = [slope, stress, gradient].concat();
-                (all.len() != 1).then(|| drives(&all, &["slope", "shields", "u_star", "pressure_gradient"]))
+            Top::Plane => {
+                let allowed = ["pressure_gradient", "discharge", "mean_velocity", "shields", "u_star"];
+                let all = [slope.clone(), stress, closed].concat();
+                (all.len() != 1 || !slope.is_empty()).then(|| drives(&all, &allowed))
+            }
+            Top::Stress(_) | Top::ColebrookWhite(_) => {
+                let all = [slope, stress, closed.clone()].concat();
+                (all.len() != 1 || !closed.is_empty()).then(|| drives(&all, &["slope", "shields", "u_star"]))
             }
         };
         faults.extend(fault.map(|fault| ("flow", fault)));
+        if flow.oscillation.is_some() && !flow.recorded.is_empty() {
+            let both = ["oscillation", "recorded"];
+            faults.push(("flow", drives(&both, &both)));
+        }
+        if let Some(pair) = flow.recorded.windows(2).find(|pair| pair[1].time <= pair[0].time) {
+            let allowed = format!("more than {}, the time before it", pair[0].time);
+            faults.push(("flow.recorded", Fault::OutOfRange { name: "time".into(), value: pair[1].time, allowed }));
+        }
+        if let [first, rest @ ..] = &flow.recorded[..]
+            && (first.time != 0.0 || rest.is_empty())
+        {
+            let allowed = "0 for the first of two and more moments".to_owned();
+            faults.push(("flow.recorded", Fault::OutOfRange { name: "time".into(), value: first.time, allowed }));
+        }
         let level = flow.slope == Some(0.0) && flow.depth.is_none() && flow.top == Top::FreeSurface;
         if level && faults.is_empty() {
             let allowed = "more than 0 where the depth follows from the stress on the bed".to_owned();
@@ -73,6 +100,7 @@ impl BedScene {
         }
         if let (Some(depth), None) = (flow.depth, flow.slope)
             && flow.top == Top::FreeSurface
+            && self.stress().is_some()
             && faults.is_empty()
             && self.slope_of(depth).is_none()
         {
@@ -92,7 +120,10 @@ impl BedScene {
             ("flow.shields", flow.shields.is_some()),
             ("flow.u_star", flow.u_star.is_some()),
             ("flow.pressure_gradient", flow.pressure_gradient.is_some()),
+            ("flow.discharge", flow.discharge.is_some()),
+            ("flow.mean_velocity", flow.mean_velocity.is_some()),
             ("flow.oscillation", flow.oscillation.is_some()),
+            ("flow.recorded", !flow.recorded.is_empty()),
         ])
     }
 
@@ -128,12 +159,13 @@ impl BedScene {
         flow.shields.map(of_shields).or_else(of_u_star)
     }
 
-    /// Slope \[rad]: given, or that at which fluid of the given depth exerts the wanted stress on the bed under a free surface.
+    /// Slope \[rad]: given, 0 under waves that alone drive the flow, or that at which fluid of the given depth exerts the wanted stress on the bed under a free surface.
     #[must_use]
     pub fn slope(&self) -> Option<f64> {
         let flow = &self.flow;
         match flow.angle() {
             Ok(Some(angle)) => Some(angle),
+            Ok(None) if flow.top == Top::FreeSurface && self.stress().is_none() => flow.waves().then_some(0.0),
             Ok(None) if flow.top == Top::FreeSurface => self.slope_of(flow.depth?),
             _ => None,
         }

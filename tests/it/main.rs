@@ -15,6 +15,7 @@ mod converge;
 mod cost;
 mod coupled;
 mod docs;
+mod drives;
 mod features;
 mod folder;
 mod full_disk;

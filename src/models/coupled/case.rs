@@ -189,9 +189,9 @@ pub struct CoupledLaws {
     /// Effective viscosity of the mixture.
     #[serde(default = "clear")]
     pub mixture_viscosity: MixtureViscosity,
-    /// Friction of the fluid on the side walls.
-    #[serde(default)]
-    pub side_wall: SideWall,
+    /// Friction of the fluid on the side walls; left out, that of smooth walls (blasius) between side walls and none without.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub side_wall: Option<SideWall>,
     /// Eddies that a grain meets.
     #[serde(default)]
     pub fluctuation: Fluctuation,
@@ -208,7 +208,7 @@ impl Default for CoupledLaws {
             drag: Only::default(),
             mixing_length: li_sawamoto(),
             mixture_viscosity: clear(),
-            side_wall: SideWall::default(),
+            side_wall: None,
             fluctuation: Fluctuation::default(),
         }
     }

@@ -152,10 +152,12 @@ impl Model for Coupled {
         }
         let CoupledDiscrete { coupling_period, sample_period, duration, .. } = *discrete;
         within("discrete.sample_period", "discrete.sample_period", sample_period, coupling_period, duration);
-        if closures.side_wall != SideWall::None && !side_walls {
+        let usual = if side_walls { SideWall::Blasius } else { SideWall::default() };
+        let side_wall = closures.side_wall.unwrap_or(usual);
+        if side_wall != SideWall::default() && !side_walls {
             let fault = Fault::LawMismatch {
                 family: "side_wall".into(),
-                law: closures.side_wall.info().law.into(),
+                law: side_wall.info().law.into(),
                 model: format!("{} without side walls", Self::INFO.name),
                 allowed: vec![side_wall::none::INFO.law.into()],
             };
@@ -184,7 +186,7 @@ impl Model for Coupled {
             drag,
             mixing_length: closures.mixing_length,
             viscosity: closures.mixture_viscosity,
-            side_wall: closures.side_wall,
+            side_wall,
             fluctuation: closures.fluctuation,
             coupling_period,
             fluid_steps: discrete.fluid_steps,

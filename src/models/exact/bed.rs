@@ -16,6 +16,7 @@ use crate::models::exact::ExactFault;
 use crate::models::{BedFault, premises};
 use crate::result::{Premise, Results, quantity as q};
 use crate::scene::BedScene;
+use crate::units::significant;
 
 /// One velocity for fluid and grains, or two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -102,8 +103,52 @@ impl From<&BedClosures> for BedLaws {
 pub enum Drive {
     /// fall of pressure along the flow, -dp/dx [Pa/m]
     PressureGradient(f64),
-    /// wanted Shields number
-    Shields(f64),
+    /// the pressure gradient that gives what is wanted
+    Wanted(Wanted, f64),
+}
+
+/// What a drive is solved for, as the results have it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// Shields number
+    Shields,
+    /// mean velocity of fluid and grains over the whole height [m/s]
+    MeanVelocity,
+    /// discharge of the fluid per unit width [m2/s]
+    Discharge,
+}
+
+impl Wanted {
+    /// Its name among the drives of the flow.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Shields => "shields",
+            Self::MeanVelocity => "mean_velocity",
+            Self::Discharge => "discharge",
+        }
+    }
+
+    /// What it is in a flow of these scaled numbers: stress on the bed, integral of the mixture velocity, flux of the grains.
+    #[must_use]
+    pub fn of(self, bed: &LaminarBed, [tau, discharge, flux]: [f64; 3]) -> f64 {
+        match self {
+            Self::Shields => tau * bed.h / bed.d,
+            Self::MeanVelocity => discharge * bed.velocity_scale(),
+            Self::Discharge => (discharge - flux) * bed.velocity_scale() * bed.h,
+        }
+    }
+
+    /// The drive that is solved for, as the equations say it.
+    #[must_use]
+    pub fn equation(self, value: f64) -> String {
+        let value = significant(value, 5);
+        match self {
+            Self::Shields => format!("f such that the Shields number is {value}"),
+            Self::MeanVelocity => format!("f such that the mean velocity is {value} m/s"),
+            Self::Discharge => format!("f such that the discharge of the fluid is {value} m²/s"),
+        }
+    }
 }
 
 /// A laminar flow between two planes, the lower part filled with grains. All values SI.
@@ -187,8 +232,8 @@ impl LaminarBed {
             h: self.h,
             g: self.g,
             drive: match self.drive {
-                Drive::PressureGradient(fall) => Ok(fall),
-                Drive::Shields(theta) => Err(theta),
+                Drive::PressureGradient(fall) => Some(fall),
+                Drive::Wanted(..) => None,
             },
             mu_s: self.friction.mu_s,
             mu_2: self.rise.map(|rise| rise.mu_2),
@@ -286,11 +331,11 @@ pub(in crate::models) fn laminar_bed(
         let law = &drag::carman_kozeny::INFO;
         faults.push(("closures.drag.law", mismatch("drag", law.law, model, &[law])));
     }
-    let drive = match (flow.pressure_gradient, flow.shields) {
-        (Some(gradient), _) => Drive::PressureGradient(gradient),
-        (None, Some(shields)) => Drive::Shields(shields),
-        (None, None) => return None,
-    };
+    let of = |what: Wanted, value: Option<f64>| value.map(|value| Drive::Wanted(what, value));
+    let drive = (flow.pressure_gradient.map(Drive::PressureGradient))
+        .or(of(Wanted::Shields, scene.shields_drive()))
+        .or(of(Wanted::MeanVelocity, flow.mean_velocity))
+        .or(of(Wanted::Discharge, flow.discharge))?;
     Some(LaminarBed {
         rho_f: fluid.density,
         eta: fluid.viscosity,

@@ -85,7 +85,7 @@ impl BedNumbers {
         }
         let drive = match bed.drive {
             Drive::PressureGradient(given) => given,
-            Drive::Shields(_) => self.f * stress / h,
+            Drive::Wanted(..) => self.f * stress / h,
         };
         results.set(&q::DRIVE, drive);
         results.set(&q::DRIVE_DIMENSIONLESS, self.f);

@@ -82,33 +82,34 @@ pub(in crate::models) fn small_numbers(regularisation: &Regularisation, unit: f6
 
 /// The dimensionless drive.
 fn drive(bed: &LaminarBed, nodes: Nodes, regularisation: &Regularisation) -> Result<f64, SolveError> {
-    let wanted = match bed.drive {
+    let (what, wanted) = match bed.drive {
         Drive::PressureGradient(gradient) => return Ok(gradient / ((bed.rho_p - bed.rho_f) * bed.g)),
-        Drive::Shields(wanted) => wanted,
+        Drive::Wanted(what, wanted) => (what, wanted),
     };
-    let shields = |f: f64| {
-        let solution = Bed::scaled(bed, f).solve(nodes, regularisation).ok()?;
-        Some(solution.tau_interface(f) * bed.h / bed.d)
+    let found = |f: f64| {
+        let scaled = Bed::scaled(bed, f);
+        let numbers = numbers(&scaled, &scaled.solve(nodes, regularisation).ok()?);
+        Some(what.of(bed, [numbers.tau, numbers.discharge, numbers.flux]))
     };
     // Above the largest drive no bed is at rest; bisect down to what can be solved.
     let mut high = (1.0 - 1e-9) * Bed::scaled(bed, 0.0).largest_drive();
     let low = 1e-12 * high;
-    let mut largest = shields(high);
+    let mut largest = found(high);
     let (mut good, mut bad) = (low, high);
     for _ in 0..if largest.is_none() { 50 } else { 0 } {
         let middle = 0.5 * (good + bad);
-        match shields(middle) {
-            Some(theta) => (good, largest) = (middle, Some(theta)),
+        match found(middle) {
+            Some(value) => (good, largest) = (middle, Some(value)),
             None => bad = middle,
         }
         high = good;
     }
     let largest = largest.unwrap_or(0.0);
     if wanted > largest {
-        return Err(BedError::OutOfReach { quantity: "shields", wanted, largest }.into());
+        return Err(BedError::OutOfReach { quantity: what.name(), wanted, largest }.into());
     }
-    brent(|f| shields(f).map_or(f64::NAN, |theta| theta / wanted - 1.0), low, high, |_| {})
-        .map_err(no_root("the drive for the wanted Shields number"))
+    brent(|f| found(f).map_or(f64::NAN, |value| value / wanted - 1.0), low, high, |_| {})
+        .map_err(no_root("the drive that gives what is wanted"))
 }
 
 fn numbers(bed: &Bed, solution: &Solution) -> BedNumbers {
@@ -229,7 +230,7 @@ pub fn equations(problem: &RegularisedBed) -> String {
         Drive::PressureGradient(p) => {
             format!("f = -dp/dx/((ρ_p - ρ_f) g) = {}", n(p / ((bed.rho_p - bed.rho_f) * bed.g)))
         }
-        Drive::Shields(theta) => format!("f such that the Shields number is {}", n(theta)),
+        Drive::Wanted(what, value) => what.equation(value),
     };
     let mut text = format!(
         "Viscous fluid over a bed of grains between two planes, {form} form.\n\n\

@@ -118,7 +118,9 @@ pub struct RegularisedBed {
 }
 
 impl Model for OnMesh<RegularisedBed> {
-    const INFO: ModelInfo = ModelInfo::new("laminar").taking(&["pressure_gradient", "shields"]).under(&["plane"]);
+    const INFO: ModelInfo = ModelInfo::new("laminar")
+        .taking(&["pressure_gradient", "discharge", "mean_velocity", "shields", "u_star"])
+        .under(&["plane"]);
     type Scene = BedScene;
     type Table = Laminar;
 

@@ -9,10 +9,19 @@ pub enum TwoFluidFault {
     /// Waves in a steady flow.
     #[error("a steady flow has no waves")]
     NeedsTime,
+    /// A flow that goes on after its recorded waves.
+    #[error("the waves are recorded for {record_s} s, and the flow lasts {duration_s} s")]
+    RecordEnds {
+        /// last moment of the record \[s]
+        record_s: f64,
+        /// time to follow \[s]
+        duration_s: f64,
+    },
 }
 
 codes!(TwoFluidFault {
     Self::NeedsTime => "needs-time",
+    Self::RecordEnds { .. } => "record-ends",
 });
 
 impl CaseFault for TwoFluidFault {
@@ -22,7 +31,8 @@ impl CaseFault for TwoFluidFault {
 
     fn hint(&self) -> Option<String> {
         match self {
-            Self::NeedsTime => Some("remove flow.oscillation, or set state = \"transient\"".into()),
+            Self::NeedsTime => Some("remove the waves, or set state = \"transient\"".into()),
+            Self::RecordEnds { record_s, .. } => Some(format!("set solver.duration to {record_s} s, or less")),
         }
     }
 }

@@ -6,6 +6,7 @@ use super::levels::Levels;
 use super::outcome::{column, report};
 use super::problem::TimeControl;
 use super::transient::{March, Stuck};
+use crate::case::tables::Moment;
 use crate::models::exact::balance;
 use crate::models::two_fluid::TwoFluid;
 use crate::models::two_fluid::TwoFluidError;
@@ -19,6 +20,18 @@ struct Sample {
     rate: f64,
     shields: f64,
     level: Option<f64>,
+}
+
+/// Fall of pressure [Pa/m] at `time` \[s], straight between the moments of a record.
+fn recorded(moments: &[Moment], time: f64) -> f64 {
+    let after = moments.partition_point(|moment| moment.time < time);
+    match (after.checked_sub(1).map(|i| moments[i]), moments.get(after)) {
+        (Some(a), Some(b)) => {
+            let share = (time - a.time) / (b.time - a.time);
+            a.pressure_gradient + share * (b.pressure_gradient - a.pressure_gradient)
+        }
+        (a, b) => a.or(b.copied()).map_or(0.0, |moment| moment.pressure_gradient),
+    }
 }
 
 /// Follows the flow for its whole time on `cells` cells.
@@ -35,12 +48,13 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
     // -dp/dx over (rho_p - rho_f) g, on the volume of fluid and, over the ratio of densities, on that of the grains.
     let waves = flow.oscillation.map(|waves| (waves.amplitude * flow.d / flow.stress_scale(), waves.period / unit));
     let ratio = column.laws.ratio;
-    let drive = |time: f64| match waves {
-        None => steady,
-        Some((amplitude, period)) => {
-            let push = amplitude * (TAU * time / period).cos();
-            [steady[0] + push, steady[1] + push / ratio]
-        }
+    let drive = |time: f64| {
+        let push = match waves {
+            None if flow.recorded.is_empty() => return steady,
+            None => recorded(&flow.recorded, time * unit) * flow.d / flow.stress_scale(),
+            Some((amplitude, period)) => amplitude * (TAU * time / period).cos(),
+        };
+        [steady[0] + push, steady[1] + push / ratio]
     };
     let mut march = March::new(column, still);
     let mut samples: Vec<Sample> = Vec::with_capacity(wanted);

@@ -3,7 +3,7 @@
 use super::case::{FluidStress, State, TwoFluidTable};
 use super::{equations, figures, run, study};
 use crate::case::Fault;
-use crate::case::tables::Oscillation;
+use crate::case::tables::{Moment, Oscillation};
 use crate::closures::dispersion::Dispersion;
 use crate::closures::drag::DallavalleGrain;
 use crate::closures::kinetic::{Elastic, Granular, Moving, StaticFriction, Stresses};
@@ -37,7 +37,7 @@ pub struct TimeControl {
 }
 
 /// A two-fluid flow. All values SI.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TwoFluid {
     /// density of the fluid [kg/m3]
     pub rho_f: f64,
@@ -89,6 +89,8 @@ pub struct TwoFluid {
     pub fine: Option<f64>,
     /// a pressure gradient that oscillates: amplitude [Pa/m], period \[s]
     pub oscillation: Option<Oscillation>,
+    /// a pressure gradient as it was measured; none where empty
+    pub recorded: Vec<Moment>,
     /// how the flow is followed in time
     pub time: TimeControl,
 }
@@ -106,6 +108,12 @@ impl TwoFluid {
         (self.stress_scale() / self.rho_f).sqrt()
     }
 
+    /// Whether a pressure gradient goes to and fro.
+    #[must_use]
+    pub fn waves(&self) -> bool {
+        self.oscillation.is_some() || !self.recorded.is_empty()
+    }
+
     /// Nominal Shields number: the weight of the fluid over the grains at rest, along the slope.
     #[must_use]
     pub fn shields(&self) -> f64 {
@@ -114,8 +122,9 @@ impl TwoFluid {
 }
 
 impl Model for OnMesh<TwoFluid> {
-    const INFO: ModelInfo =
-        ModelInfo::new("two-fluid").taking(&["slope", "shields", "u_star", "oscillation"]).under(&["free-surface"]);
+    const INFO: ModelInfo = ModelInfo::new("two-fluid")
+        .taking(&["slope", "shields", "u_star", "oscillation", "recorded"])
+        .under(&["free-surface"]);
     type Scene = BedScene;
     type Table = TwoFluidTable;
 
@@ -157,8 +166,16 @@ impl Model for OnMesh<TwoFluid> {
         }
         // Neither is there where the drives of the scene are wrong, which it says itself.
         let (depth, beta) = (scene.depth(), scene.slope());
-        if flow.oscillation.is_some() && table.state == State::Steady {
-            faults.push(("flow.oscillation", TwoFluidFault::NeedsTime));
+        if flow.waves() && table.state == State::Steady {
+            let key = if flow.oscillation.is_some() { "flow.oscillation" } else { "flow.recorded" };
+            faults.push((key, TwoFluidFault::NeedsTime));
+        }
+        if let Some(last) = flow.recorded.last()
+            && table.state != State::Steady
+            && last.time < solver.duration
+        {
+            let fault = TwoFluidFault::RecordEnds { record_s: last.time, duration_s: solver.duration };
+            faults.push(("solver.duration", fault));
         }
         let problem = TwoFluid {
             rho_f: fluid.density,
@@ -186,6 +203,7 @@ impl Model for OnMesh<TwoFluid> {
             phi_floor: regularisation.phi,
             fine: table.grid.fine,
             oscillation: flow.oscillation,
+            recorded: flow.recorded.clone(),
             time: TimeControl { duration: solver.duration, tolerance: solver.tolerance, samples: solver.samples },
         };
         Some(Self { problem, cells: table.grid.cells })
@@ -233,7 +251,7 @@ impl Solve for OnMesh<TwoFluid> {
             State::Steady => (None, "state = \"transient\", which follows the flow from rest"),
             State::Transient => (Some(flow.time.duration), "a smaller solver.tolerance, or more grid.cells"),
         };
-        let steady = flow.beta > 0.0 && flow.oscillation.is_none();
+        let steady = flow.beta > 0.0 && !flow.waves();
         steady.then(|| SteadyDrive { velocity_scale: flow.velocity_scale(), at_s, hint })
     }
 
@@ -265,7 +283,7 @@ impl Solve for OnMesh<TwoFluid> {
     fn flow(&self) -> Result<Option<Flow>, Failure> {
         let flow = &self.problem;
         // Waves, settling and dry grains have no other model.
-        let steady = flow.state == State::Steady && flow.oscillation.is_none();
+        let steady = flow.state == State::Steady && !flow.waves();
         let in_water = flow.shields() > 0.0 && flow.rho_p < 20.0 * flow.rho_f;
         Ok((steady && in_water).then(|| {
             Flow::Turbulent(TurbulentScene {

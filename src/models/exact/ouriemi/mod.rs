@@ -273,10 +273,10 @@ impl Solution {
     }
 }
 
-/// The drive f and the closed form of `bed`; a wanted Shields number is solved for. `see` receives residuals.
+/// The drive f and the closed form of `bed`; a wanted Shields number, mean velocity or discharge is solved for. `see` receives residuals.
 ///
 /// # Errors
-/// Those of [`Scaled::solve`], in SI; [`BedError::OutOfReach`] if no drive gives the wanted Shields number.
+/// Those of [`Scaled::solve`], in SI; [`BedError::OutOfReach`] if no drive gives what is wanted.
 pub fn solve(bed: &LaminarBed, see: impl FnMut(f64)) -> Result<Solution, SolveError> {
     let weight = (bed.rho_p - bed.rho_f) * bed.g;
     let scaled = |f: f64| Scaled {
@@ -286,18 +286,21 @@ pub fn solve(bed: &LaminarBed, see: impl FnMut(f64)) -> Result<Solution, SolveEr
         h_p: bed.h_p / bed.h,
         k: bed.drag.map(|law| law.permeability(bed.phi, bed.d / bed.h)),
     };
-    let shields = |f: f64| Some(scaled(f).solve(|_| {}).ok()?.tau_interface * bed.h / bed.d);
     let f = match bed.drive {
         Drive::PressureGradient(gradient) => gradient / weight,
-        Drive::Shields(wanted) => {
+        Drive::Wanted(what, wanted) => {
+            let found = |f: f64| {
+                let flow = scaled(f).solve(|_| {}).ok()?;
+                Some(what.of(bed, [flow.tau_interface, flow.discharge(), flow.flux() * bed.phi]))
+            };
             let (low, high) = (1e-15 * scaled(0.0).largest_drive(), (1.0 - 1e-9) * scaled(0.0).largest_drive());
-            let largest = shields(high).unwrap_or(0.0);
+            let largest = found(high).unwrap_or(0.0);
             if wanted > largest {
-                return Err(BedError::OutOfReach { quantity: "shields", wanted, largest }.into());
+                return Err(BedError::OutOfReach { quantity: what.name(), wanted, largest }.into());
             }
             // The history is that of the drive: the searches inside it have other scales.
-            let f = brent(|f| shields(f).map_or(f64::NAN, |theta| theta / wanted - 1.0), low, high, see)
-                .map_err(no_root("the drive for the wanted Shields number"))?;
+            let f = brent(|f| found(f).map_or(f64::NAN, |value| value / wanted - 1.0), low, high, see)
+                .map_err(no_root("the drive that gives what is wanted"))?;
             return scaled(f).solve(|_| {});
         }
     };

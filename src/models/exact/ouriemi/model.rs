@@ -29,7 +29,9 @@ part! {
 }
 
 impl Model for OnMesh<LaminarBed> {
-    const INFO: ModelInfo = ModelInfo::new("laminar-exact").taking(&["pressure_gradient", "shields"]).under(&["plane"]);
+    const INFO: ModelInfo = ModelInfo::new("laminar-exact")
+        .taking(&["pressure_gradient", "discharge", "mean_velocity", "shields", "u_star"])
+        .under(&["plane"]);
     type Scene = BedScene;
     type Table = LaminarExact;
 

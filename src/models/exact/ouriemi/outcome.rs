@@ -113,7 +113,7 @@ pub fn equations(bed: &LaminarBed) -> String {
     let h_p = bed.h_p / bed.h;
     let drive = match bed.drive {
         Drive::PressureGradient(p) => format!("f = -dp/dx/((ρ_p - ρ_f) g) = {}", n(p / weight)),
-        Drive::Shields(theta) => format!("f such that the Shields number is {}", n(theta)),
+        Drive::Wanted(what, value) => what.equation(value),
     };
     let mut text = format!(
         "Newtonian fluid over a Coulomb bed between two planes, {form} form.\n\n\
