@@ -36,7 +36,13 @@ impl Verb for Check {
         }
         let checks = case.checks().len();
         let rows = if checks == 1 { "1 check".to_owned() } else { format!("{checks} checks") };
-        Ok(say(&format!("{}: valid, {}, {} levels, {rows}\n", case.name, problem.model_name(), problem.cells()))?)
+        // An impact follows one grain at one place.
+        let size = match (problem.stochastic, problem.cells()) {
+            (_, 1) => String::new(),
+            (true, grains) => format!("{grains} grains, "),
+            (false, levels) => format!("{levels} levels, "),
+        };
+        Ok(say(&format!("{}: valid, {}, {size}{rows}\n", case.name, problem.model_name()))?)
     }
 }
 

@@ -335,7 +335,7 @@ fn at_round_off(balances: &[Balance]) -> bool {
 
 /// Numbers of the closing lines, a line each, named by the first.
 const HEADLINES: &[&[&quantity::Quantity]] = &[
-    &[&quantity::SHIELDS, &quantity::SHIELDS_DRIVE, &quantity::U_STAR],
+    &[&quantity::SHIELDS, &quantity::U_STAR, &quantity::SHIELDS_BED],
     &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
     &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],

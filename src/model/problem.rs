@@ -83,8 +83,15 @@ impl Problem {
         let complete = |outcome: &mut Outcome| {
             outcome.statement = self.statement();
             outcome.work = self.cells() as f64 * outcome.steps();
-            if let Some(theta) = self.scene.as_ref().and_then(Scene::shields_drive) {
-                outcome.results.set(&q::SHIELDS_DRIVE, theta);
+            // What the scene alone fixes is the same in every model; a model says what else its walls or its lid leave.
+            if let Some((theta, u_star)) = self.scene.as_ref().and_then(Scene::drive) {
+                let results = &mut outcome.results;
+                results.set(&q::SHIELDS_DRIVE, theta);
+                results.set(&q::U_STAR_DRIVE, u_star);
+                if results.get(q::SHIELDS.name).is_none() {
+                    results.set(&q::SHIELDS, theta);
+                    results.set(&q::U_STAR, u_star);
+                }
             }
             if let Some(scene) = &self.scene {
                 outcome.regime = self.solver.premises(scene, &outcome.results);

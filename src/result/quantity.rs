@@ -97,7 +97,7 @@ catalogue! {
     TIME = "time_s", "time", "t", "s", "simulated time";
     KINETIC_ENERGY = "kinetic_energy_J", "kinetic energy", "E_k", "J", "of the mobile grains, translation and rotation";
     RATE_IN_TIME = "transport_rate_m2_s", "transport rate", "q_p", "m²/s", "solid volume per unit width and time, mean since the sample before";
-    SHIELDS_IN_TIME = "shields_turbulent", "turbulent Shields number", "θ*", "1", "largest Reynolds stress of the column over (ρ_p - ρ_f) g d";
+    SHIELDS_IN_TIME = "shields_bed", "Shields number on the moving grains", "θ_b", "1", "largest Reynolds stress of the column over (ρ_p - ρ_f) g d";
     LEVEL_IN_TIME = "bed_level_m", "bed level", "z_b", "m", "where the solid fraction, averaged over a diameter, falls to half of its largest value";
     RESIDUAL = "residual", "relative residual", "r", "1", "magnitude of the residual relative to the scale that the model states";
 }
@@ -105,15 +105,17 @@ catalogue! {
 catalogue! {
     /// Keys of `results` in `summary.json`.
     RESULTS:
-    SHIELDS = "shields", "Shields number", "θ", "1", "total fluid shear stress at the bed level over (ρ_p - ρ_f) g d";
-    U_STAR = "u_star_m_s", "friction velocity", "u_*", "m/s", "sqrt(τ/ρ_f) of the fluid shear stress at the bed level or wall";
+    SHIELDS = "shields", "Shields number", "θ", "1", "total stress on the bed over (ρ_p - ρ_f) g d: that of the drive less what side walls take, or what a lid or a plane leaves";
+    U_STAR = "u_star_m_s", "friction velocity", "u_*", "m/s", "sqrt(τ/ρ_f) of the total stress on the bed, or on the wall where there is no bed";
     TRANSPORT_RATE = "transport_rate_m2_s", "transport rate", "q_p", "m²/s", "integral of φ u_p over z: solid volume without pores per unit width and time";
     TRANSPORT_RATE_MASS = "transport_rate_kg_m_s", "transport rate by mass", "ρ_p q_p", "kg/(m s)", "solid mass per unit width and time";
     TRANSPORT_RATE_BULK = "transport_rate_bulk_m2_s", "bulk transport rate", "q_p/φ", "m²/s", "transport rate with the pores of the bed";
     TRANSPORT_RATE_DIMENSIONLESS = "transport_rate_dimensionless", "dimensionless transport rate", "Q*", "1", "q_p/(d sqrt((ρ_p/ρ_f - 1) g d)), g the full gravity";
     TRANSPORT_RATE_BEADS = "transport_rate_beads_1_s", "transport rate by number", "n", "1/s", "grains that pass a cross-section of the channel per unit time";
-    SHIELDS_TURBULENT = "shields_turbulent", "turbulent Shields number", "θ*", "1", "largest mean Reynolds stress over (ρ_p - ρ_f) g d";
+    SHIELDS_BED = "shields_bed", "Shields number on the moving grains", "θ_b", "1", "what the model finds on the moving grains, over (ρ_p - ρ_f) g d: the largest mean Reynolds stress, or the stress at the interface of a sheet flow";
+    U_STAR_BED = "u_star_bed_m_s", "friction velocity on the moving grains", "u_*b", "m/s", "sqrt(τ/ρ_f) of the stress on the moving grains";
     SHIELDS_DRIVE = "shields_drive", "Shields number of the drive", "θ_d", "1", "wanted stress on the bed, or the weight along the slope of the fluid over the bed at rest, over (ρ_p - ρ_f) g d; no side walls";
+    U_STAR_DRIVE = "u_star_drive_m_s", "friction velocity of the drive", "u_*d", "m/s", "sqrt(τ/ρ_f) of the stress of the drive alone";
     SHIELDS_NOMINAL = "shields_nominal", "nominal Shields number", "θ_n", "1", "ρ_f g h_w sin(α) over (ρ_p - ρ_f) g d, h_w the water depth";
     WATER_DEPTH = "water_depth_m", "water depth", "h_w", "m", "free surface over the bed level";
     TRANSIENT = "transient_s", "transient", "t_0", "s", "time before the first sample that is averaged";

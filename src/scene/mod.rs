@@ -190,6 +190,13 @@ impl Scene {
         }
     }
 
+    /// That Shields number with its friction velocity [m/s].
+    #[must_use]
+    pub fn drive(&self) -> Option<(f64, f64)> {
+        let Self::Bed(scene) = self else { return None };
+        self.shields_drive().zip(scene.u_star_drive())
+    }
+
     /// Solid volume of the bed at rest per area \[m], without pores; `None` where the scene does not say.
     #[must_use]
     pub fn solid_volume(&self) -> Option<f64> {

@@ -53,10 +53,10 @@ fn error_of(row: &Row, quantity: &Quantity) -> Option<f64> {
 
 /// Adds measures, findings and figures if `rows` are grains in a fluid; `keys` are what is varied.
 pub(super) fn assess(keys: &[&str], rows: &[Row], assessment: &mut Assessment) {
-    if rows.iter().all(|row| row.result(q::SHIELDS_TURBULENT.name).is_none()) {
+    if rows.iter().all(|row| row.result(q::SHIELDS_BED.name).is_none()) {
         return;
     }
-    for quantity in [&q::TRANSPORT_RATE_DIMENSIONLESS, &q::SHIELDS_TURBULENT] {
+    for quantity in [&q::TRANSPORT_RATE_DIMENSIONLESS, &q::SHIELDS_BED] {
         let errors = rows.iter().map(|row| error_of(row, quantity)).collect();
         assessment.measures.push((format!("{}_stderr", quantity.name), errors));
     }
@@ -123,14 +123,14 @@ fn drawn(name: &str, colour: usize, dash: Dash, (from, to): (f64, f64), law: imp
 fn resting(rows: &[Row], series: &str) -> Option<f64> {
     let of = rows.iter().filter(|row| row.status == Status::Done && row.point.series == series);
     let rests = |row: &&Row| row.result(q::TRANSPORT_RATE_DIMENSIONLESS.name).is_some_and(|rate| rate < REST);
-    of.filter(rests).filter_map(|row| row.result(q::SHIELDS_TURBULENT.name)).reduce(f64::max)
+    of.filter(rests).filter_map(|row| row.result(q::SHIELDS_BED.name)).reduce(f64::max)
 }
 
 /// The rates of a series that are known, from the smallest Shields number on.
 fn known(rows: &[Row], series: &str) -> Vec<Known> {
     let one = |row: &Row| {
         let rate = row.result(q::TRANSPORT_RATE_DIMENSIONLESS.name)?;
-        let theta = row.result(q::SHIELDS_TURBULENT.name)?;
+        let theta = row.result(q::SHIELDS_BED.name)?;
         let error = error_of(row, &q::TRANSPORT_RATE_DIMENSIONLESS)?;
         (rate > 0.0 && theta > 0.0 && error > 0.0 && error < POOR * rate).then_some(Known { theta, rate, error })
     };

@@ -31,7 +31,7 @@ fn the_numbers_of_a_flume_belong_together() {
     let scratch = Scratch::new();
     scratch.bedload(case(&["--out", "out"])).exits(0);
     let summary = scratch.summary("out");
-    for name in ["transport_rate_beads_1_s", "transport_rate_m2_s", "shields_turbulent", "bed_level_m"] {
+    for name in ["transport_rate_beads_1_s", "transport_rate_m2_s", "shields_bed", "bed_level_m"] {
         let error = summary["results"][name]["stderr"].as_f64().unwrap();
         assert!(error > 0.0 && error < number(&summary, name), "{name} ± {error}");
     }
@@ -54,7 +54,7 @@ fn the_numbers_of_a_flume_belong_together() {
     assert!((flux / rate - 1.0).abs() < 0.25, "{flux} {rate}");
     let largest = profile.range(&q::TAU_REYNOLDS).unwrap().1;
     let stress = 1500.0 * 9.81 * d;
-    assert!((number(&summary, "shields_turbulent") * stress / largest - 1.0).abs() < 1e-6);
+    assert!((number(&summary, "shields_bed") * stress / largest - 1.0).abs() < 1e-6);
     // All grains are in the profile.
     let volume = thickness * 0.15 * width * sum(profile.get(&q::PHI).unwrap());
     let mobile = number(&summary, "grains") * pi / 6.0 * d.powi(3);
@@ -124,7 +124,7 @@ fn what_few_samples_tell_has_no_error_and_ends_no_run() {
         let reported = run(&[duration, "discrete.known_to=1"], out);
         assert!(reported.contains("error unknown: too few samples") && !reported.contains('±'), "{reported}");
         let summary = scratch.summary(out);
-        for name in ["transport_rate_m2_s", "bed_level_m", "shields_turbulent", "shields", "u_star_m_s"] {
+        for name in ["transport_rate_m2_s", "bed_level_m", "shields_bed", "shields", "u_star_m_s"] {
             let reported = &summary["results"][name];
             assert!(reported["value"].is_f64() && reported["stderr"].is_null(), "{name}: {reported}");
             assert_eq!(reported["reason"], "too few samples", "{name}: {reported}");

@@ -139,7 +139,7 @@ fn a_flow_is_run_compared_and_migrated_on_the_command_line() {
     let scratch = Scratch::new();
     scratch.write("flow.toml", flow());
     let out = scratch.bedload(["check", "flow.toml", "--model", "coupled"]).exits(0).out;
-    assert!(out.contains("valid, coupled, 1448 levels"), "{out}");
+    assert!(out.contains("valid, coupled, 1448 grains"), "{out}");
     let every = scratch.bedload(["check", "flow.toml"]).exits(0).out;
     assert_eq!(every.lines().filter(|line| line.contains("--model")).count(), 3, "{every}");
     scratch.bedload(["run", "flow.toml"]).exits(2);

@@ -2,11 +2,12 @@
 
 use super::Surface;
 use super::freeze::FrozenBed;
-use super::record::Sample;
+use super::record::{FLUID, Sample};
 use super::run::Run;
 use super::theory;
 use crate::closures::contact::linear_spring::RIGID_RANGE;
 use crate::closures::drag::dallavalle_grain::RANGE as HINDRANCE_RANGE;
+use crate::dem::average::Averaged;
 use crate::dem::budget;
 use crate::dem::outcome::{bed_level, nothing, profile};
 use crate::dem::stability;
@@ -49,25 +50,22 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     set(&q::TRANSPORT_RATE_BEADS, rate, bed.size[1] / grain);
     set(&q::TRANSPORT_RATE_MASS, rate, bed.rho_p);
     set(&q::BED_LEVEL, level, 1.0);
-    set(&q::MEAN_VELOCITY, run.record.mean(|sample| sample.velocity, first), 1.0);
+    let mean_velocity = run.record.mean(|sample| sample.velocity, first);
+    set(&q::MEAN_VELOCITY, mean_velocity, 1.0);
     // The largest of the mean stress; its error is that of the cell where it is.
     let largest = fluid.iter().map(|cell| cell[1]).reduce(|a, b| if b.mean > a.mean { b } else { a });
-    set(&q::SHIELDS_TURBULENT, largest, 1.0 / stress);
+    set(&q::SHIELDS_BED, largest, 1.0 / stress);
     let star = largest.filter(|stress| stress.mean > 0.0).map(|stress| {
         let u = (stress.mean / flow.rho_f).sqrt();
         Estimate { mean: u, stderr: stress.stderr.map(|error| 0.5 * u * error / stress.mean) }
     });
-    set(&q::U_STAR, star, 1.0);
+    set(&q::U_STAR_BED, star, 1.0);
     let height = run.exchange.cell_height() * fluid.len() as f64;
     let pull = flow.rho_f * bed.g * bed.beta.sin();
     let depth = level.map(|level| Estimate { mean: height - level.mean, ..level });
     set(&q::WATER_DEPTH, depth, 1.0);
     set(&q::SHIELDS_NOMINAL, depth, pull / stress);
-    if let (Some(level), false) = (level, fluid.is_empty()) {
-        let at = ((level.mean / run.exchange.cell_height()) as usize).min(fluid.len() - 1);
-        let [_, reynolds, viscous, ..] = fluid[at];
-        set(&q::SHIELDS, Some(reynolds.plus(viscous)), 1.0 / stress);
-    }
+    total_stress(run, &fluid, &averaged, [depth, mean_velocity], &mut results);
     results.set(&q::FLOW_HEIGHT, height);
     if let Surface::Depth(depth) = flow.surface {
         results.set(&q::BED_LEVEL_REST, height - depth);
@@ -180,4 +178,39 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
         ),
     ];
     Ok(Outcome { results, balances, validity, profile: table, series, ..nothing(status) })
+}
+
+/// The stress on the bed where the scene alone does not fix it: what side walls leave of the drive, or the drive of the depth after the deposit.
+/// Its error is that of the depth, and twice that of the velocity for the walls.
+fn total_stress(
+    run: &Run<'_>,
+    fluid: &[[Estimate; FLUID]],
+    averaged: &Averaged,
+    [deposit, velocity]: [Option<Estimate>; 2],
+    results: &mut Results,
+) {
+    let (flow, bed) = (run.flow, &run.flow.bed);
+    let Some((deposit, velocity)) = deposit.zip(velocity) else { return };
+    let depth = match flow.surface {
+        Surface::Depth(_) if !bed.side_walls => return,
+        Surface::Depth(depth) => Estimate { mean: depth, stderr: Ok(0.0) },
+        Surface::Height(_) => deposit,
+    };
+    let (dz, width) = (run.exchange.cell_height(), bed.size[1]);
+    let wall = |(cell, phi): (&[Estimate; FLUID], &Option<Estimate>)| {
+        let open = 1.0 - phi.map_or(0.0, |phi| phi.mean);
+        open * 2.0 / width * flow.side_wall.stress(cell[0].mean, width, flow.nu()).value * dz
+    };
+    let level = dz * fluid.len() as f64 - deposit.mean;
+    let first = ((level / dz + 0.5).max(0.0) as usize).min(fluid.len());
+    let above = fluid.iter().zip(&averaged.phi).skip(first).filter(|_| bed.side_walls);
+    let taken: f64 = above.map(wall).sum();
+    let walls =
+        Estimate { mean: -taken, stderr: velocity.stderr.map(|error| 2.0 * taken * error / velocity.mean.abs()) };
+    // Per density of the fluid, a velocity squared.
+    let stress = depth.times(bed.g * bed.beta.sin()).plus(walls);
+    results.set_mean(&q::SHIELDS, stress.times(flow.rho_f / flow.stress_scale()));
+    let star = stress.mean.max(0.0).sqrt();
+    let stderr = stress.stderr.map(|error| 0.5 * star * error / stress.mean.abs());
+    results.set_mean(&q::U_STAR, Estimate { mean: star, stderr });
 }

@@ -151,9 +151,13 @@ fn results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &La
     results.set(&q::TRANSPORT_RATE_BED, layers.flux * velocity * d);
     results.set(&q::TRANSPORT_RATE_SUSPENSION, layers.totals.flux * velocity * d);
     results.set(&q::TRANSPORT_SHARE_BED, layers.flux / layers.psi());
-    results.set(&q::SHIELDS, state.tau_b);
     let u_star = velocity * state.tau_b.sqrt();
-    results.set(&q::U_STAR, u_star);
+    results.set(&q::SHIELDS_BED, state.tau_b);
+    results.set(&q::U_STAR_BED, u_star);
+    if solved.column.setting.lid != Lid::FreeSurface {
+        results.set(&q::SHIELDS, state.tau_b);
+        results.set(&q::U_STAR, u_star);
+    }
     match sheet.suspension.settling_velocity() {
         Some(w_s) => results.set(&q::SUSPENSION_NUMBER, w_s / u_star),
         None => results.undefined(&q::SUSPENSION_NUMBER, "no suspension"),

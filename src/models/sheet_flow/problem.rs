@@ -265,7 +265,7 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
             Err(failure) => return Err(failure),
         };
         let result = |name: &str| solved.as_ref().and_then(|results| results.get(name));
-        let theta = flow.tau_b.map(|tau| tau / flow.stress_scale()).or(result(q::SHIELDS.name)).unwrap_or(f64::NAN);
+        let theta = flow.tau_b.map(|tau| tau / flow.stress_scale()).or(result(q::SHIELDS_BED.name)).unwrap_or(f64::NAN);
         let depth = flow.height - flow.level;
         let balanced = theta * flow.stress_scale() / (flow.rho_f * flow.g * depth);
         Ok(Some(Flow::Turbulent(TurbulentScene {

@@ -178,6 +178,7 @@ impl Levels {
     }
 
     /// Linear between the middles, at the elevation `z`.
+    #[cfg(test)]
     #[must_use]
     pub fn at(&self, z: f64, of: impl Fn(&Level) -> f64) -> Option<f64> {
         let pair = self.cells.windows(2).find(|pair| pair[0].z <= z && z <= pair[1].z)?;

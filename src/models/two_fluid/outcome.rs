@@ -129,17 +129,15 @@ fn fluid(flow: &TwoFluid, levels: &Levels, results: &mut Results) {
     let (d, velocity) = (flow.d, flow.velocity_scale());
     let turbulent = levels.cells.iter().map(|level| level.turbulent).fold(0.0, f64::max);
     results.set(&q::BED_LEVEL_REST, flow.thickness);
-    results.set(&q::SHIELDS_TURBULENT, turbulent);
-    let level = levels.bed_level();
-    match level.and_then(|z| Some((z, levels.at(z, |level| level.viscous + level.turbulent)?))) {
-        Some((z, stress)) => {
-            results.set(&q::SHIELDS, stress);
-            results.set(&q::U_STAR, stress.max(0.0).sqrt() * velocity);
+    results.set(&q::SHIELDS_BED, turbulent);
+    results.set(&q::U_STAR_BED, turbulent.sqrt() * velocity);
+    match levels.bed_level() {
+        Some(z) => {
             results.set(&q::BED_LEVEL, z * d);
             results.set(&q::WATER_DEPTH, flow.thickness + flow.depth - z * d);
         }
         None => {
-            for quantity in [&q::SHIELDS, &q::U_STAR, &q::BED_LEVEL, &q::WATER_DEPTH] {
+            for quantity in [&q::BED_LEVEL, &q::WATER_DEPTH] {
                 results.undefined(quantity, "the solid fraction does not fall to half of its largest value");
             }
         }
