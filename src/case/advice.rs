@@ -29,6 +29,9 @@ impl CaseFault for Fault {
             Self::OldFormat { scene: None } => Some("format = 2 with a scene and the tables of its models".into()),
             Self::Unit { unit, .. } if unit == "1" => Some("a pure number".into()),
             Self::Unit { unit, .. } => Some(format!("a number in {unit}, or a text such as \"1 {unit}\"")),
+            Self::Unit { diameters: true, .. } => {
+                Some("a number in m, or a text such as \"1 m\" or, in diameters of the grains, \"1 d\"".into())
+            }
             Self::TooSteep { definition: "sine", .. } => Some("less than 1".into()),
             Self::TooSteep { .. } => Some("less than 90 deg".into()),
             Self::TooLarge { limit } => Some(format!("at most {limit} bytes")),
@@ -58,8 +61,10 @@ impl CaseFault for Fault {
             Self::Unit { error: UnitError::UnknownUnit { nearest: Some(n), .. }, .. } => {
                 Some(format!("did you mean \"{n}\"?"))
             }
-            Self::Unit { error: UnitError::NoUnit { text }, unit, .. } => {
-                Some(format!("write {text} without quotes if it is in {unit}, or \"{text} {unit}\""))
+            Self::Unit { error: UnitError::NoUnit { text }, unit, diameters, .. } => {
+                let grains =
+                    if *diameters { format!(", or \"{text} d\" in diameters of the grains") } else { String::new() };
+                Some(format!("write {text} without quotes if it is in {unit}, or \"{text} {unit}\"{grains}"))
             }
             Self::Drives { given, allowed } if given.len() > 1 => {
                 let pairs = allowed.iter().any(|drives| drives.contains(" and "));

@@ -185,6 +185,8 @@ pub enum Fault {
         allowed: String,
     },
     /// A number out of its range.
+        /// whether it is a length that may be given in diameters of the grains
+        diameters: bool,
     #[error("{name} = {value} is out of range")]
     OutOfRange {
         /// key

@@ -172,10 +172,21 @@ impl<'k> Walk<'k> {
     }
 
     /// Whether a text is a length in diameters of grains whose diameter is missing or wrong, which is reported there.
-    pub(super) fn of_unknown_grains(&self, text: &str, schema: &Value) -> bool {
-        let grains = self.kind.is_some_and(|kind| schema::has(&kind.schema, "grains.diameter"));
-        let length = schema::text(schema, "x-unit") == "m";
-        grains && length && self.diameter.is_none_or(|d| d <= 0.0) && diameters(text, 1.0).is_some()
+    pub(super) fn of_unknown_grains(&self, text: &str, path: &str, schema: &Value) -> bool {
+        let unknown = self.diameter.is_none_or(|d| d <= 0.0);
+        unknown && self.takes_diameters(path, schema) && diameters(text, 1.0).is_some()
+    }
+
+    /// Whether a number is a length of a flow that has grains, and not their diameter itself.
+    pub(super) fn takes_diameters(&self, path: &str, schema: &Value) -> bool {
+        const DIAMETER: &str = "grains.diameter";
+        let required = |kind: &Kind| {
+            let required = kind.schema.get("required").and_then(Value::as_array);
+            required.is_some_and(|required| required.iter().any(|table| table == "grains"))
+        };
+        // Where grains are a choice, they are there or there are none.
+        let of = |kind: &Kind| schema::has(&kind.schema, DIAMETER) && (self.has_grains || required(kind));
+        self.kind.is_some_and(of) && path != DIAMETER && schema::text(schema, "x-unit") == "m"
     }
 }
 
