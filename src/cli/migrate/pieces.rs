@@ -1,5 +1,7 @@
 //! What `bedload migrate` moves: comments, laws, and the depth that a height leaves over its bed.
 
+use std::ops::Range;
+
 use toml_edit::{Decor, Document, InlineTable, Item, Key, RawString, Table, Value};
 
 use crate::units::parse_quantity;
@@ -25,6 +27,45 @@ fn lines(part: &str) -> String {
 /// The comments before and behind, a line each.
 pub(super) fn comments(decor: &Decor) -> String {
     lines(raw(decor.prefix())) + &lines(raw(decor.suffix()))
+}
+
+/// The text with at most one empty line in a row; in texts of several lines they stay.
+pub(super) fn without_gaps(text: &str) -> String {
+    let mut kept = Vec::new();
+    if let Ok(document) = Document::parse(text) {
+        texts(document.as_item(), &mut kept);
+    }
+    kept.sort_by_key(|span: &Range<usize>| span.start);
+    let (mut found, mut at) = (String::with_capacity(text.len()), 0);
+    for span in kept.into_iter().chain([text.len()..text.len()]) {
+        let mut between = text[at..span.start].to_owned();
+        while between.contains("\n\n\n") {
+            between = between.replace("\n\n\n", "\n\n");
+        }
+        found += &between;
+        found += &text[span.clone()];
+        at = span.end;
+    }
+    found
+}
+
+/// Where the texts in it stand.
+fn texts(item: &Item, found: &mut Vec<Range<usize>>) {
+    match item {
+        Item::Value(value) => texts_in(value, found),
+        Item::Table(table) => table.iter().for_each(|(_, item)| texts(item, found)),
+        Item::ArrayOfTables(rows) => rows.iter().flat_map(Table::iter).for_each(|(_, item)| texts(item, found)),
+        Item::None => {}
+    }
+}
+
+fn texts_in(value: &Value, found: &mut Vec<Range<usize>>) {
+    match value {
+        Value::String(text) => found.extend(text.span()),
+        Value::Array(values) => values.iter().for_each(|value| texts_in(value, found)),
+        Value::InlineTable(table) => table.iter().for_each(|(_, value)| texts_in(value, found)),
+        _ => {}
+    }
 }
 
 /// What stands before and behind a key and its value, or the header of a table.
