@@ -244,7 +244,7 @@ impl CaseError {
     pub fn choices(&self) -> Option<Choices<'_>> {
         match self.violations.as_slice() {
             [one] => match one.fault.downcast_ref()? {
-                Fault::WhichModel { given, allowed, alone } if given.is_empty() => {
+                Fault::WhichModel { given: None, allowed, alone, .. } => {
                     Some(Choices { models: allowed, alone: *alone })
                 }
                 _ => None,
