@@ -178,6 +178,18 @@ impl Case {
         (numbers, others.into_iter().map(own).collect())
     }
 
+    /// Whether the file has a table of its model; a scene alone has none.
+    #[must_use]
+    pub fn has_table(&self) -> bool {
+        scene::is_written(&self.document, self.model)
+    }
+
+    /// Whether the file or a `--set` argument gives `key`, named as in `--set`.
+    #[must_use]
+    pub fn gives(&self, key: &str) -> bool {
+        self.document.node(&self.place(key)).is_some()
+    }
+
     /// What the file does not say, and the values that are taken: defaults, by key as in `--set`.
     #[must_use]
     pub fn defaults(&self) -> Vec<(String, String)> {
