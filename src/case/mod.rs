@@ -192,7 +192,7 @@ impl Case {
 
     /// What the file does not say, and the values that are taken: defaults, by key as in `--set`.
     #[must_use]
-    pub fn defaults(&self) -> Vec<(String, String)> {
+    pub fn defaults(&self) -> Vec<(String, serde_json::Value)> {
         let mut found = Vec::new();
         let mut open = vec![(String::new(), &self.content.tables)];
         while let Some((path, value)) = open.pop() {
@@ -204,7 +204,7 @@ impl Case {
                 serde_json::Value::Null | serde_json::Value::Array(_) => {}
                 value if self.document.node(&path).is_none() && !self.is_a_word(&path) => {
                     let own = path.strip_prefix(self.model).and_then(|own| own.strip_prefix('.')).unwrap_or(&path);
-                    found.push((own.to_owned(), value.to_string().trim_matches('"').to_owned()));
+                    found.push((own.to_owned(), value.clone()));
                 }
                 _ => {}
             }
