@@ -39,7 +39,7 @@ use crate::advise::AdviseError;
 use crate::case::{CaseError, printable};
 use crate::compare::CompareError;
 use crate::model::Registry;
-use crate::output::OutputError;
+use crate::output::{OutputError, word};
 use crate::result::ErrorReport;
 use crate::study::StudyError;
 use crate::validate::ValidateError;
@@ -367,12 +367,6 @@ impl CliError {
         let hint = hint.map(|hint| format!("  {hint}\n")).unwrap_or_default();
         write!(to, "{}", printable(&format!("{message}\n{hint}")))
     }
-}
-
-/// An argument as a shell takes it back.
-fn word(argument: &str) -> String {
-    let plain = |s: &str| !s.is_empty() && s.chars().all(|c| c.is_alphanumeric() || "/._-+,:=".contains(c));
-    if plain(argument) { argument.to_owned() } else { format!("'{}'", argument.replace('\'', "'\\''")) }
 }
 
 /// Whether standard error takes colour.
