@@ -43,7 +43,7 @@ use crate::output::{OutputError, word};
 use crate::result::ErrorReport;
 use crate::study::StudyError;
 use crate::validate::ValidateError;
-use answers::Answers;
+use answers::{Answers, usage, wants_json};
 use case_args::{CaseArgs, all_are_right};
 use interrupt::STOPPED;
 
@@ -241,6 +241,9 @@ pub fn execute(registry: &Registry) -> ExitCode {
         Err(error) => {
             // Help and version are errors of exit code 0.
             let code = error.exit_code();
+            if error.use_stderr() && wants_json() {
+                return ExitCode::from(usage(&error).report(Some(&Answers::default())));
+            }
             return if error.print().is_err() {
                 ExitCode::FAILURE
             } else {
