@@ -63,6 +63,8 @@ pub struct Advice {
     pub numbers: Vec<Number>,
     /// the model
     pub least: Least,
+    /// the model whose terms are assessed: that of the case, or, of a scene alone, the least one
+    pub of: &'static str,
     /// its terms
     pub terms: Vec<Term>,
 }
@@ -75,10 +77,18 @@ pub enum AdviseError {
     #[error(transparent)]
     Case(#[from] Box<CaseError>),
     /// the model is no scene of sediment transport
-    #[error("there is nothing to choose for {model}: it is the only model of its scene")]
+    #[error("advice is for steady flows over a bed of grains: {}", no_bed(model, scene))]
     OneModel {
         /// the model
         model: String,
+        /// the kind of its scene
+        scene: &'static str,
+    },
+    /// no model is known to answer this flow
+    #[error("no model is known to answer this flow to a relative error of {tolerance} with its premises met")]
+    NoneServes {
+        /// largest relative error
+        tolerance: f64,
     },
     /// there is no such flow: its own model finds none
     #[error("there is nothing to advise on: {0}")]
@@ -116,8 +126,16 @@ codes!(AdviseError {
     Self::Case(_) => "case",
     Self::OneModel { .. } => "one-model",
     Self::NoFlow(_) | Self::NoBed { .. } => "no-flow",
-    Self::Refused { .. } | Self::Fails { .. } => "no-case",
+    Self::NoneServes { .. } | Self::Refused { .. } | Self::Fails { .. } => "no-case",
 });
+
+/// Why a case of `model` is no such flow.
+fn no_bed(model: &str, scene: &str) -> String {
+    match scene {
+        "bed" => format!("this case of {model} is none"),
+        _ => format!("{model} solves a scene of the kind \"{scene}\""),
+    }
+}
 
 /// The first thing that is wrong with a case.
 fn first(error: &CaseError) -> String {
@@ -129,7 +147,8 @@ impl AdviseError {
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Case(_) | Self::OneModel { .. } => "give a case of a steady flow over grains",
+            Self::Case(_) | Self::OneModel { .. } => "give a case with scene = \"bed\" and a steady drive",
+            Self::NoneServes { .. } => "a larger --tolerance, or `bedload chart` for what its models differ by",
             Self::NoFlow(_) | Self::NoBed { .. } => "lower the drive or the slope",
             Self::Refused { .. } | Self::Fails { .. } => "a smaller --tolerance asks for the next better model",
         }
@@ -140,7 +159,8 @@ impl AdviseError {
 /// scene alone.
 ///
 /// # Errors
-/// [`AdviseError::Case`]; [`AdviseError::OneModel`] for cases that are no scene; [`AdviseError::NoFlow`] and [`AdviseError::NoBed`].
+/// [`AdviseError::Case`]; [`AdviseError::OneModel`] for cases that are no steady flow over a bed; [`AdviseError::NoFlow`] and
+/// [`AdviseError::NoBed`]; [`AdviseError::NoneServes`].
 pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: f64) -> Result<Advice, AdviseError> {
     let (alone, (case, problem)) = match registry.load(case, overrides) {
         Ok(checked) => (false, checked),
@@ -153,7 +173,8 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
     };
     let no_flow = |failure: Failure| AdviseError::NoFlow(failure.error);
     let Some(mut flow) = problem.solver().flow().map_err(no_flow)? else {
-        return Err(AdviseError::OneModel { model: problem.kind.into() });
+        let scene = problem.scene.as_ref().map_or("", |scene| scene.kind());
+        return Err(AdviseError::OneModel { model: problem.kind.into(), scene });
     };
     let subject = Subject { registry: registry.clone().choosing(case.model), case: &case, tolerance };
     let numbers = match &flow {
@@ -182,7 +203,8 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
             matches!(&own, OwnCase::Scene(changes) if !changes.is_empty()) && terms.iter().any(|term| !term.keep);
         let (kind, stochastic) = (info.name, info.stochastic);
         let found = if same && !drops {
-            Ok((None, problem.clone()))
+            // A scene alone is no case of the model that was chosen for it.
+            Ok(((!case.has_table()).then(|| case.clone()), problem.clone()))
         } else {
             subject.of(kind, &own).map(|(own, found)| (Some(own), found))
         };
@@ -205,8 +227,14 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
             }
         }
         let Some(own) = own else {
-            return Ok(Advice { numbers, least: Least { kind, stochastic, because, case: None }, terms });
+            return Ok(Advice {
+                numbers,
+                least: Least { kind, stochastic, because, case: None },
+                of: case.model,
+                terms,
+            });
         };
+        let of = if alone { kind } else { case.model };
         if alone {
             let subject = Subject { registry: registry.clone().choosing(kind), case: &own, tolerance };
             terms.extend(found.solver().terms().iter().filter_map(|term| subject.assess(term)));
@@ -215,9 +243,9 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
         // The claims of the case are not those of another model.
         let text = resolved.split("\n[[").next().unwrap_or(&resolved).trim_end();
         let case = Some(format!("{text}\n"));
-        return Ok(Advice { numbers, least: Least { kind, stochastic, because, case }, terms });
+        return Ok(Advice { numbers, least: Least { kind, stochastic, because, case }, of, terms });
     }
-    Err(refused.unwrap_or_else(|| AdviseError::OneModel { model: problem.kind.into() }))
+    Err(refused.unwrap_or(AdviseError::NoneServes { tolerance }))
 }
 
 impl Advice {

@@ -1,5 +1,6 @@
 //! What to do about a fault: what would be allowed, and a hint.
 
+use super::diagnose::nearest;
 use super::fault::Fault;
 use super::violation::CaseFault;
 use crate::units::UnitError;
@@ -28,6 +29,9 @@ impl CaseFault for Fault {
             }
             Self::OldFormat { scene: None } => Some("format = 2 with a scene and the tables of its models".into()),
             Self::Unit { unit, .. } if unit == "1" => Some("a pure number".into()),
+            Self::Unit { diameters: true, .. } => {
+                Some("a number in m, or a text such as \"1 m\" or, in diameters of the grains, \"1 d\"".into())
+            }
             Self::Unit { unit, .. } => Some(format!("a number in {unit}, or a text such as \"1 {unit}\"")),
             Self::TooSteep { definition: "sine", .. } => Some("less than 1".into()),
             Self::TooSteep { .. } => Some("less than 90 deg".into()),
@@ -58,8 +62,10 @@ impl CaseFault for Fault {
             Self::Unit { error: UnitError::UnknownUnit { nearest: Some(n), .. }, .. } => {
                 Some(format!("did you mean \"{n}\"?"))
             }
-            Self::Unit { error: UnitError::NoUnit { text }, unit, .. } => {
-                Some(format!("write {text} without quotes if it is in {unit}, or \"{text} {unit}\""))
+            Self::Unit { error: UnitError::NoUnit { text }, unit, diameters, .. } => {
+                let grains =
+                    if *diameters { format!(", or \"{text} d\" in diameters of the grains") } else { String::new() };
+                Some(format!("write {text} without quotes if it is in {unit}, or \"{text} {unit}\"{grains}"))
             }
             Self::Drives { given, allowed } if given.len() > 1 => {
                 let pairs = allowed.iter().any(|drives| drives.contains(" and "));
@@ -74,7 +80,16 @@ impl CaseFault for Fault {
                 Some("`bedload new` writes a case to start from".into())
             }
             Self::OldFormat { .. } => Some("`bedload migrate OLD.toml NEW.toml` writes it in format 2".into()),
+            Self::WhichModel { given: Some(given), allowed, .. } => nearest(given, allowed.iter().map(String::as_str))
+                .map(|model| format!("did you mean \"{model}\"?"))
+                .or_else(|| Some("`bedload list models` shows what each one solves".into())),
+            Self::WhichModel { set: Some(model), .. } => {
+                Some(format!("--set changes a value and chooses no model: add --model {model}"))
+            }
             Self::WhichModel { .. } => Some("give the table of one model, or choose one with --model".into()),
+            Self::TwoModels { named, given, file } => {
+                Some(format!("leave out --model for {named}, or give {file} --model {given}"))
+            }
             Self::OtherScene { .. } => Some("`bedload list models` shows what each one solves".into()),
             Self::LawMismatch { .. } => Some("`bedload list closures` shows all laws".into()),
             Self::LimitKey { .. } => Some("for example over = \"flow.slope=0.01:0.05:9\"".into()),

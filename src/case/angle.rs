@@ -68,13 +68,13 @@ pub(super) fn definition(entries: &[(String, Node)], schema: &Value, path: &str)
         (Err(error @ (UnitError::NoUnit { .. } | UnitError::WrongDimension { .. })), ANGLE)
             if parse_quantity(text, "1").is_ok() =>
         {
-            Fault::Unit { name: named, error, unit: "rad".into(), meant: None }
+            Fault::Unit { name: named, error, unit: "rad".into(), diameters: false, meant: None }
         }
         (Ok(angle), word @ ("tangent" | "sine")) => {
             let ratio = significant(if word == "sine" { angle.sin() } else { angle.tan() }, 5);
             let error = parse_quantity(text, "1").err()?;
             let meant = format!("write {key} = \"angle\", or leave it out; or the {word} itself: {name} = {ratio}");
-            Fault::Unit { name: named, error, unit: "1".into(), meant: Some(meant) }
+            Fault::Unit { name: named, error, unit: "1".into(), diameters: false, meant: Some(meant) }
         }
         _ => return None,
     };

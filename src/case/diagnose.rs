@@ -20,8 +20,14 @@ pub(super) struct Diagnosis<'k> {
 
 /// Reads a document as the kind of case that it names.
 pub(super) fn diagnose<'k>(document: &Document, kinds: &'k Kinds) -> Diagnosis<'k> {
-    let mut walk =
-        Walk { kinds, kind: None, diameter: scene::diameter(document), violations: Vec::new(), complete: true };
+    let mut walk = Walk {
+        kinds,
+        kind: None,
+        diameter: scene::diameter(document),
+        has_grains: document.node("grains").is_some(),
+        violations: Vec::new(),
+        complete: true,
+    };
     if matches!(&document.root.data, Data::Table(entries) if entries.is_empty()) {
         walk.report(Fault::Empty, "", &document.root.value);
         return Diagnosis { case: None, violations: walk.violations };
@@ -96,6 +102,8 @@ pub(super) struct Walk<'k> {
     pub(super) kind: Option<&'k Kind>,
     /// diameter of the grains \[m], the unit `d` of a length
     pub(super) diameter: Option<f64>,
+    /// whether there is a table of them
+    pub(super) has_grains: bool,
     violations: Vec<Violation>,
     /// whether every value could be read that is not reported
     complete: bool,
@@ -332,7 +340,7 @@ impl<'k> Walk<'k> {
         let x = match &node.data {
             Data::Integer(i) => *i as f64,
             Data::Float(x) => *x,
-            Data::Text(text) if path != "grains.diameter" && self.of_unknown_grains(text, schema) => {
+            Data::Text(text) if self.of_unknown_grains(text, path, schema) => {
                 self.complete = false;
                 return Value::Null;
             }
@@ -340,7 +348,8 @@ impl<'k> Walk<'k> {
                 Ok(x) => x,
                 Err(error) => {
                     let meant = angle::meant(text, &error, schema);
-                    let fault = Fault::Unit { name: shown(path), error, unit: unit.into(), meant };
+                    let diameters = self.takes_diameters(path, schema);
+                    let fault = Fault::Unit { name: shown(path), error, unit: unit.into(), diameters, meant };
                     self.report(fault, path, &node.value);
                     return Value::Null;
                 }

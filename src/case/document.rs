@@ -56,6 +56,8 @@ pub struct Text {
 pub struct Document {
     pub(super) texts: Vec<Text>,
     pub(super) root: Node,
+    /// names of the tables and keys of the file itself, which `--set` may add to
+    pub(super) written: Vec<String>,
     /// offset of each line of the case file
     lines: Vec<usize>,
 }
@@ -73,8 +75,9 @@ impl Document {
         let faults = faults.collect();
         let whole = Span { text: 0, bytes: 0..0 };
         let root = Node { data: table_data(table.get_ref(), 0), key: whole.clone(), value: whole };
+        let written = table.get_ref().keys().map(|key| key.get_ref().clone().into_owned()).collect();
         let lines = std::iter::once(0).chain(content.match_indices('\n').map(|(i, _)| i + 1)).collect();
-        let document = Self { root, texts: vec![Text { name: name.into(), content }], lines };
+        let document = Self { root, written, texts: vec![Text { name: name.into(), content }], lines };
         (document, faults)
     }
 

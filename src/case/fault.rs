@@ -134,14 +134,26 @@ pub enum Fault {
         with_bed: bool,
     },
     /// A case with several models or none, or a model that does not exist.
-    #[error("{}", which_model(given, allowed, *alone))]
+    #[error("{}", which_model(given.as_deref(), allowed, *alone))]
     WhichModel {
-        /// the model that was asked for; empty where none was
-        given: String,
+        /// the model that was asked for, if one was
+        given: Option<String>,
         /// models that there are
         allowed: Vec<String>,
         /// whether the case has no table of a model
         alone: bool,
+        /// model of which `--set` has a key: that is no choice
+        set: Option<String>,
+    },
+    /// Another model than the one that the name of the case chooses.
+    #[error("the name of the case chooses {named}, and --model {given}")]
+    TwoModels {
+        /// model of the name
+        named: String,
+        /// model of `--model`
+        given: String,
+        /// the case without its model
+        file: String,
     },
     /// A model that solves another kind of flow.
     #[error("{model} does not solve a scene of the kind \"{scene}\"")]
@@ -173,6 +185,8 @@ pub enum Fault {
         error: UnitError,
         /// SI unit of the quantity
         unit: String,
+        /// whether it is a length that may be given in diameters of the grains
+        diameters: bool,
         /// what to write instead, where that is known
         meant: Option<String>,
     },
@@ -285,7 +299,7 @@ codes!(Fault {
     Self::UnknownWord { .. } => "unknown-word",
     Self::OldFormat { .. } => "old-format",
     Self::Renamed { .. } => "renamed",
-    Self::WhichModel { .. } => "which-model",
+    Self::WhichModel { .. } | Self::TwoModels { .. } => "which-model",
     Self::OtherScene { .. } => "other-scene",
     Self::Drives { .. } => "drives",
     Self::TooSteep { .. } => "too-steep",
@@ -304,12 +318,9 @@ fn drives(given: &[String]) -> String {
     }
 }
 
-fn which_model(given: &str, allowed: &[String], alone: bool) -> String {
-    if !given.is_empty() {
-        return match (allowed, alone) {
-            ([own], false) => format!("the name of the case has chosen {own}, and --model {given}"),
-            _ => format!("there is no model \"{given}\""),
-        };
+fn which_model(given: Option<&str>, allowed: &[String], alone: bool) -> String {
+    if let Some(given) = given {
+        return format!("there is no model \"{given}\"");
     }
     match allowed.len() {
         n if alone => format!("a scene alone does not say which of {n} models solves it"),

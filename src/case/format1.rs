@@ -29,6 +29,10 @@ pub(crate) struct Form {
     pub slope: Option<&'static str>,
 }
 
+/// Results that have another name: of checks.
+#[cfg(feature = "cli")]
+pub(crate) const RESULTS: [(&str, &str); 1] = [("shields_turbulent", "shields_bed")];
+
 const LEVEL: (&str, &str) = ("bed.level", "bed.thickness");
 /// The height of format 1 was that of bed and flow together.
 pub(crate) const HEIGHT: (&str, &str) = ("flow.height", "flow.depth");

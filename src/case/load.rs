@@ -23,7 +23,11 @@ impl Case {
     /// # Errors
     /// Every violation of the file, or why it cannot be read.
     pub fn load(kinds: &Kinds, name: &str, overrides: &[String]) -> Result<Self, CaseError> {
-        let of_a_model = name.rsplit_once(':').filter(|(_, model)| kinds.iter().any(|kind| kind.name == *model));
+        let is_case = |file: &str| Path::new(file).exists() || shipped::find(file).is_some();
+        let is_model = |model: &str| kinds.iter().any(|kind| kind.name == model);
+        // What follows a case is meant as a model, also where there is none of that name.
+        let of_a_model =
+            name.rsplit_once(':').filter(|(file, model)| is_model(model) || is_case(file) && !Path::new(name).exists());
         let (file, model) = of_a_model.map_or((name, None), |(file, model)| (file, Some(model)));
         let path = Path::new(file);
         if path.exists() || file.contains(['/', '\\']) {
@@ -36,7 +40,7 @@ impl Case {
         match shipped::find(stem) {
             Some(Shipped { file: own, content, model: named }) => {
                 let kinds = chosen(kinds, file, model)?;
-                let kinds = chosen(&kinds, file, named)?;
+                let kinds = chosen(&kinds, own, named)?;
                 Self::parse(&kinds, own, file, content.to_owned(), overrides)
             }
             None => {
@@ -60,10 +64,12 @@ impl Case {
     ) -> Result<Self, CaseError> {
         let (mut document, mut violations) = Document::parse(source, content);
         let broken: BTreeSet<usize> = violations.iter().filter_map(|v| document.line(&v.spans[0])).collect();
+        // The model is chosen before anything is set: a setting in the table of a model chooses none.
         let own = scene::chosen(&document, kinds);
         let name = scene::named(name, &document, kinds);
         for argument in overrides {
-            let argument = &own.map_or_else(|| argument.clone(), |model| scene::within(model, argument));
+            let model = own.filter(|_| argument.contains('='));
+            let argument = &model.map_or_else(|| argument.clone(), |model| scene::within(model, argument));
             if let Err(violation) = document.set(argument) {
                 violations.push(violation);
             }
@@ -109,7 +115,7 @@ fn chosen<'k>(kinds: &'k Kinds, file: &str, model: Option<&str>) -> Result<Cow<'
     match (model, kinds.chosen.as_deref()) {
         (Some(model), None) => Ok(Cow::Owned(kinds.clone().choosing(model))),
         (Some(model), Some(other)) if model != other => {
-            let fault = Fault::WhichModel { given: other.into(), allowed: vec![model.into()], alone: false };
+            let fault = Fault::TwoModels { named: model.into(), given: other.into(), file: file.into() };
             Err(CaseError::without_text(file, fault))
         }
         _ => Ok(Cow::Borrowed(kinds)),

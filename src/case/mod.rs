@@ -178,9 +178,21 @@ impl Case {
         (numbers, others.into_iter().map(own).collect())
     }
 
+    /// Whether the file has a table of its model; a scene alone has none.
+    #[must_use]
+    pub fn has_table(&self) -> bool {
+        scene::is_written(&self.document, self.model)
+    }
+
+    /// Whether the file or a `--set` argument gives `key`, named as in `--set`.
+    #[must_use]
+    pub fn gives(&self, key: &str) -> bool {
+        self.document.node(&self.place(key)).is_some()
+    }
+
     /// What the file does not say, and the values that are taken: defaults, by key as in `--set`.
     #[must_use]
-    pub fn defaults(&self) -> Vec<(String, String)> {
+    pub fn defaults(&self) -> Vec<(String, serde_json::Value)> {
         let mut found = Vec::new();
         let mut open = vec![(String::new(), &self.content.tables)];
         while let Some((path, value)) = open.pop() {
@@ -192,7 +204,7 @@ impl Case {
                 serde_json::Value::Null | serde_json::Value::Array(_) => {}
                 value if self.document.node(&path).is_none() && !self.is_a_word(&path) => {
                     let own = path.strip_prefix(self.model).and_then(|own| own.strip_prefix('.')).unwrap_or(&path);
-                    found.push((own.to_owned(), value.to_string().trim_matches('"').to_owned()));
+                    found.push((own.to_owned(), value.clone()));
                 }
                 _ => {}
             }
@@ -244,7 +256,7 @@ impl CaseError {
     pub fn choices(&self) -> Option<Choices<'_>> {
         match self.violations.as_slice() {
             [one] => match one.fault.downcast_ref()? {
-                Fault::WhichModel { given, allowed, alone } if given.is_empty() => {
+                Fault::WhichModel { given: None, allowed, alone, .. } => {
                     Some(Choices { models: allowed, alone: *alone })
                 }
                 _ => None,

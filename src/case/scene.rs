@@ -11,9 +11,20 @@ use super::wording::choices;
 use super::{angle, schema};
 use crate::units::{UnitError, parse_quantity};
 
-/// The models of which the document has a table.
+/// The models of which the file has a table.
 fn present<'k>(document: &Document, kinds: &'k Kinds) -> Vec<&'k Kind> {
-    kinds.iter().filter(|kind| document.node(kind.name).is_some()).collect()
+    kinds.iter().filter(|kind| document.node(kind.name).is_some() && is_written(document, kind.name)).collect()
+}
+
+/// The model of which `--set` alone has a key, if there is one.
+fn set_alone<'k>(document: &Document, kinds: &'k Kinds) -> Option<&'k str> {
+    let set = |kind: &&Kind| document.node(kind.name).is_some() && !is_written(document, kind.name);
+    kinds.iter().find(set).map(|kind| kind.name)
+}
+
+/// Whether the file itself has a table of `model`.
+pub(super) fn is_written(document: &Document, model: &str) -> bool {
+    document.written.iter().any(|name| name == model)
 }
 
 /// The model of a case: the one that was chosen, or the only one that it has; else those that it has.
@@ -49,7 +60,9 @@ pub(super) fn of_the_flow(argument: &str) -> bool {
 /// A `--set` argument: what is no table of the flow is a key of the model.
 pub(super) fn within(model: &str, argument: &str) -> String {
     let first = argument.split(['.', '=']).next().unwrap_or_default().trim();
-    if of_the_flow(argument) || first == model {
+    // One whose key has an empty part stays as it was typed, to be shown.
+    let key = argument.split('=').next().unwrap_or_default();
+    if of_the_flow(argument) || first == model || key.split('.').any(|part| part.trim().is_empty()) {
         return argument.to_owned();
     }
     format!("{model}.{}", argument.trim_start())
@@ -140,10 +153,11 @@ impl<'k> Walk<'k> {
             }
             Err(_) if !strangers.is_empty() && self.kinds.chosen.is_none() => None,
             Err(present) => {
-                let given = self.kinds.chosen.clone().into_iter().collect::<Vec<_>>();
-                let alone = present.is_empty() || !given.is_empty();
+                let given = self.kinds.chosen.clone();
+                let alone = present.is_empty() || given.is_some();
                 let allowed = if alone { owned(&solvers) } else { owned(&present) };
-                self.report(Fault::WhichModel { given: given.join(", "), allowed, alone }, "", &document.root.value);
+                let set = set_alone(document, self.kinds).map(str::to_owned);
+                self.report(Fault::WhichModel { given, allowed, alone, set }, "", &document.root.value);
                 None
             }
         }
@@ -172,10 +186,21 @@ impl<'k> Walk<'k> {
     }
 
     /// Whether a text is a length in diameters of grains whose diameter is missing or wrong, which is reported there.
-    pub(super) fn of_unknown_grains(&self, text: &str, schema: &Value) -> bool {
-        let grains = self.kind.is_some_and(|kind| schema::has(&kind.schema, "grains.diameter"));
-        let length = schema::text(schema, "x-unit") == "m";
-        grains && length && self.diameter.is_none_or(|d| d <= 0.0) && diameters(text, 1.0).is_some()
+    pub(super) fn of_unknown_grains(&self, text: &str, path: &str, schema: &Value) -> bool {
+        let unknown = self.diameter.is_none_or(|d| d <= 0.0);
+        unknown && self.takes_diameters(path, schema) && diameters(text, 1.0).is_some()
+    }
+
+    /// Whether a number is a length of a flow that has grains, and not their diameter itself.
+    pub(super) fn takes_diameters(&self, path: &str, schema: &Value) -> bool {
+        const DIAMETER: &str = "grains.diameter";
+        let required = |kind: &Kind| {
+            let required = kind.schema.get("required").and_then(Value::as_array);
+            required.is_some_and(|required| required.iter().any(|table| table == "grains"))
+        };
+        // Where grains are a choice, they are there or there are none.
+        let of = |kind: &Kind| schema::has(&kind.schema, DIAMETER) && (self.has_grains || required(kind));
+        self.kind.is_some_and(of) && path != DIAMETER && schema::text(schema, "x-unit") == "m"
     }
 }
 

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::{Answers, CaseArgs, CliError, Verb, say};
+use super::{Answers, CaseArgs, CliError, Verb, say, word};
 use crate::advise;
 use crate::model::Registry;
 use crate::units::significant;
@@ -56,6 +56,7 @@ impl Verb for Advise {
                 "status": "done",
                 "model": least.kind,
                 "because": least.because,
+                "of": advice.of,
                 "numbers": numbers.collect::<Vec<_>>(),
                 "terms": terms.collect::<Vec<_>>(),
                 "written": written,
@@ -65,13 +66,16 @@ impl Verb for Advise {
         for number in &advice.numbers {
             text += &format!("  {:<36} {:>9}  {}\n", number.name, significant(number.value, 3), number.says);
         }
-        text += if advice.terms.is_empty() { "" } else { "\n" };
+        text += &match advice.terms.as_slice() {
+            [] => format!("\n  {} has no term that is assessed\n", advice.of),
+            _ => format!("\n  terms of {}\n", advice.of),
+        };
         for term in &advice.terms {
             let verdict = if term.keep { "keep" } else { "drop" };
             text += &format!("  {verdict} {:<36} {} ({})\n", term.what, term.because, term.source);
         }
         text += &match written {
-            Some(file) => format!("\nwrote {file}; next: bedload run {file}\n"),
+            Some(file) => format!("\nwrote {file}; next: bedload run {}\n", word(&file)),
             None if self.write.is_some() => "\nthe case that was given is of that model: nothing was written\n".into(),
             None => String::new(),
         };

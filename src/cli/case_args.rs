@@ -2,7 +2,7 @@
 
 use clap::Args;
 
-use super::{CliError, Verb};
+use super::{CliError, Verb, word};
 use crate::case::for_model;
 use crate::model::{Checked, Registry};
 
@@ -23,9 +23,9 @@ pub(super) struct CaseArgs {
 impl CaseArgs {
     /// The arguments that name this case again.
     pub fn as_typed(&self) -> String {
-        let model = self.model.iter().map(|model| format!(" --model {model}"));
-        let overrides = self.overrides.iter().map(|o| format!(" --set \"{o}\""));
-        std::iter::once(self.case.clone()).chain(model).chain(overrides).collect()
+        let model = self.model.iter().map(|model| format!(" --model {}", word(model)));
+        let overrides = self.overrides.iter().map(|o| format!(" --set {}", word(o)));
+        std::iter::once(word(&self.case)).chain(model).chain(overrides).collect()
     }
 
     /// The same of one of several models: what is set in the table of another is not for it.

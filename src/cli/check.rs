@@ -57,7 +57,8 @@ impl Check {
         // Of a file that has the tables of several models, each is to be right; a scene alone is not every model's.
         let wrong = takers.iter().find(|(_, refused)| refused.is_some());
         if let (Some((model, _)), Some(false)) = (wrong, error.choices().map(|choices| choices.alone)) {
-            registry.clone().choosing(model).load(&self.case.case, &self.case.overrides)?;
+            let models: Vec<String> = takers.iter().map(|(model, _)| model.clone()).collect();
+            registry.of(model, &models, &self.case.case, &self.case.overrides)?;
         }
         if self.json {
             let models = takers.iter().map(|(model, refused)| json!({ "model": model, "refused": refused }));
@@ -79,7 +80,7 @@ impl Check {
 pub(super) fn takers(registry: &Registry, case: &CaseArgs, error: &CaseError) -> Option<Vec<(String, Option<String>)>> {
     let choices = error.choices()?;
     let taken = |model: &String| {
-        let loaded = registry.clone().choosing(model).load(&case.case, &case.overrides);
+        let loaded = registry.of(model, choices.models, &case.case, &case.overrides);
         let why = loaded.err().and_then(|error| Some(error.reports().first()?.message.clone()));
         (model.clone(), why)
     };

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use super::progress::Progress;
 use super::{Answers, CliError, Verb, say, word};
-use crate::case::Case;
+use crate::case::{Case, for_model};
 use crate::compare::{
     Align, CompareError, Comparison, NormRow, Request, Stated, Subject, compare, data, of_one_kind, percent,
 };
@@ -29,6 +29,10 @@ pub(super) struct Compare {
     /// A model that solves the cases, where they have the tables of several; repeat it to compare models
     #[arg(long, value_name = "MODEL")]
     model: Vec<String>,
+    /// Change a value of every case: table.key=value; with the name of a model before it, of the cases of that model. An empty value
+    /// removes the key
+    #[arg(long = "set", value_name = "KEY=VALUE")]
+    overrides: Vec<String>,
     /// A measured profile as CSV: columns by their names in profile.csv, <name>_err is one sigma
     #[arg(long, value_name = "FILE.csv")]
     data: Vec<String>,
@@ -148,6 +152,7 @@ impl Compare {
         Request {
             subjects: self.subjects.clone(),
             models: self.model.clone(),
+            overrides: self.overrides.clone(),
             data: self.data.clone(),
             align,
             scale: self.scale,
@@ -157,6 +162,8 @@ impl Compare {
     /// Reads and checks everything before anything is run; the names are those of the default folder.
     fn load(&self, registry: &Registry) -> Result<(Vec<Loaded>, Vec<String>), CliError> {
         let (mut loaded, mut names) = (Vec::new(), Vec::new());
+        let models: Vec<String> = registry.entries().map(|entry| entry.info.name.to_owned()).collect();
+        let mut taken = Vec::new();
         for argument in &self.subjects {
             let path = Path::new(argument);
             if path.is_dir() {
@@ -167,16 +174,27 @@ impl Compare {
                 loaded.push(Loaded::Ready(Box::new(subject)));
             } else if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("csv")) {
                 let message = format!("{argument} is a table, not a case or a run");
-                return Err(CliError::Usage { message, hint: format!("give it as --data {argument}") });
+                return Err(CliError::Usage { message, hint: format!("give it as --data {}", word(argument)) });
             } else {
                 let chosen = self.model.iter().map(|model| registry.clone().choosing(model)).collect::<Vec<_>>();
                 let registries = if chosen.is_empty() { std::slice::from_ref(registry) } else { &chosen };
                 for registry in registries {
-                    let (case, problem) = registry.load(argument, &[])?;
+                    // What is set in the table of a model is for the cases of that model alone.
+                    let own = registry.load(argument, &[]).ok().map(|(case, _)| case.model);
+                    let overrides =
+                        own.map_or_else(|| self.overrides.clone(), |own| for_model(own, &models, &self.overrides));
+                    let (case, problem) = registry.load(argument, &overrides)?;
+                    taken.extend(overrides);
                     names.push(case.name.clone());
                     loaded.push(Loaded::Case(Box::new((case, problem))));
                 }
             }
+        }
+        // Nothing that was asked for is passed over: runs and data are read as they are.
+        if let Some(idle) = self.overrides.iter().find(|argument| !taken.contains(argument)) {
+            let message = format!("--set {} changes no case of this comparison", word(idle));
+            let hint = "runs and data are read as they are; MODEL.key=value is for cases of that model".into();
+            return Err(CliError::Usage { message, hint });
         }
         for file in &self.data {
             let path = Path::new(file);
@@ -191,6 +209,7 @@ impl Compare {
         let mut words = vec!["bedload compare".to_owned()];
         words.extend(self.subjects.iter().map(|s| word(s)));
         words.extend(self.model.iter().map(|model| format!("--model {}", word(model))));
+        words.extend(self.overrides.iter().map(|set| format!("--set {}", word(set))));
         words.extend(self.data.iter().map(|d| format!("--data {}", word(d))));
         if let (Datum::Bed | Datum::None, Some(value)) = (self.align, self.align.to_possible_value()) {
             words.push(format!("--align {}", value.get_name()));

@@ -5,17 +5,20 @@ mod pieces;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::mem::take;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use toml_edit::{Decor, DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
 use super::new::write_new;
-use super::{Answers, CliError, Verb, colour, say};
+use super::{Answers, CliError, Verb, colour, say, word};
 use crate::case::format1::{ACROSS, Form, HEIGHT, OF_THE_FLOW, TOP_HEIGHT};
 use crate::case::printable;
 use crate::model::Registry;
-use pieces::{bare, behind, comments, decor_of, decorated, difference, law, line, over, packing, raw, spaced};
+use pieces::{
+    Refused, bare, behind, both, comments, decor_of, decorated, difference, law, line, over, packing, raw, read,
+    spaced, without_gaps,
+};
 
 /// Write a case of format 1 in format 2: the flow, and the table of its model. Comments, units and what was left out stay as they are.
 #[derive(Clone, Debug, Args)]
@@ -29,6 +32,9 @@ pub(super) struct Migrate {
     /// Replace the file if it is there
     #[arg(long)]
     force: bool,
+    /// Write the new file also where it does not check: what was wrong with the old case is wrong with the new one
+    #[arg(long)]
+    unchecked: bool,
 }
 
 impl Verb for Migrate {
@@ -41,36 +47,28 @@ impl Verb for Migrate {
         let ends = |text: &str| if old.contains("\r\n") { text.replace('\n', "\r\n") } else { text.to_owned() };
         let file = self.new.display().to_string();
         let to_file = file != "-";
-        if to_file {
-            write_new(&self.new, &ends(&text), self.force)?;
-        } else {
+        let source = if to_file { &file } else { "the new file" };
+        let wrong = registry.parse("new", source, text.clone(), &[]).err();
+        if !to_file {
             io::stdout().lock().write_all(ends(&printable(&text)).as_bytes())?;
             io::stdout().flush()?;
+        } else if wrong.is_none() || self.unchecked {
+            write_new(&self.new, &ends(&text), self.force)?;
+            let next = if wrong.is_none() { "next: " } else { "mend it, then " };
+            say(&format!("wrote {file}; {next}bedload check {}\n", word(&file)))?;
         }
-        // What was wrong with the old case is wrong with the new one: it is there to be mended.
-        if let Err(error) = registry.parse("new", if to_file { &file } else { "the new file" }, text, &[]) {
-            if to_file {
-                say(&format!("wrote {file}\n"))?;
-            }
-            write!(io::stderr().lock(), "the new file does not check yet:\n{}", error.render(colour()))?;
-            return Err(CliError::Quiet(2));
-        }
-        if to_file {
-            say(&format!("wrote {file}; next: bedload check {file}\n"))?;
-        }
-        Ok(())
+        let Some(error) = wrong else { return Ok(()) };
+        let refused = to_file && !self.unchecked;
+        let (what, hint) = if refused {
+            ("; nothing was written", "  --unchecked writes it all the same, to be mended in format 2\n")
+        } else {
+            ("", "")
+        };
+        let shown = error.render(colour());
+        write!(io::stderr().lock(), "the new file does not check yet{what}:\n{shown}{hint}")?;
+        if self.unchecked { Ok(()) } else { Err(CliError::Quiet(2)) }
     }
 }
-
-fn read(path: &Path) -> Result<String, CliError> {
-    std::fs::read_to_string(path).map_err(|error| CliError::Usage {
-        message: format!("cannot read {}: {error}", path.display()),
-        hint: "OLD is a file of format 1; shipped cases are of format 2 already".into(),
-    })
-}
-
-/// What is wrong with a file, and a hint.
-type Refused = (String, String);
 
 /// A case of format 1 as the text of one of format 2.
 fn migrated(text: &str) -> Result<String, Refused> {
@@ -93,12 +91,6 @@ fn migrated(text: &str) -> Result<String, Refused> {
     }
     let (left, here) = (String::new(), String::new());
     Moving { text, form, new: DocumentMut::new(), left, here, from: BTreeMap::new() }.moved(&old)
-}
-
-/// That two keys are there for one thing.
-fn both(text: &str, first: &str, second: &str, why: &str) -> Refused {
-    let place = line(text, second);
-    (format!("{place}{first} and {second} are both there; {why}"), "take out the one that does not hold".into())
 }
 
 struct Moving<'t> {
@@ -169,11 +161,7 @@ impl Moving<'_> {
         self.unsaid();
         self.depth()?;
         self.sweep(raw(Some(old.trailing())));
-        let mut text = self.new.to_string();
-        while text.contains("\n\n\n") {
-            text = text.replace("\n\n\n", "\n\n");
-        }
-        Ok(text)
+        Ok(without_gaps(&self.new.to_string()))
     }
 
     /// Takes out the tables of the flow that hold nothing now. That of the model stays: it chooses the model.

@@ -39,11 +39,11 @@ use crate::advise::AdviseError;
 use crate::case::{CaseError, printable};
 use crate::compare::CompareError;
 use crate::model::Registry;
-use crate::output::OutputError;
+use crate::output::{OutputError, word};
 use crate::result::ErrorReport;
 use crate::study::StudyError;
 use crate::validate::ValidateError;
-use answers::Answers;
+use answers::{Answers, usage, wants_json};
 use case_args::{CaseArgs, all_are_right};
 use interrupt::STOPPED;
 
@@ -241,6 +241,9 @@ pub fn execute(registry: &Registry) -> ExitCode {
         Err(error) => {
             // Help and version are errors of exit code 0.
             let code = error.exit_code();
+            if error.use_stderr() && wants_json() {
+                return ExitCode::from(usage(&error).report(Some(&Answers::default())));
+            }
             return if error.print().is_err() {
                 ExitCode::FAILURE
             } else {
@@ -367,12 +370,6 @@ impl CliError {
         let hint = hint.map(|hint| format!("  {hint}\n")).unwrap_or_default();
         write!(to, "{}", printable(&format!("{message}\n{hint}")))
     }
-}
-
-/// An argument as a shell takes it back.
-fn word(argument: &str) -> String {
-    let plain = |s: &str| !s.is_empty() && s.chars().all(|c| c.is_alphanumeric() || "/._-+,:=".contains(c));
-    if plain(argument) { argument.to_owned() } else { format!("'{}'", argument.replace('\'', "'\\''")) }
 }
 
 /// Whether standard error takes colour.

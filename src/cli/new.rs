@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{Answers, CliError, Verb, say};
+use super::{Answers, CliError, Verb, say, word};
 use crate::case::{nearest, shipped};
 use crate::model::Registry;
 
@@ -41,9 +41,9 @@ impl Verb for New {
             return Ok(say(content)?);
         }
         write_new(&self.file, content, self.force)?;
-        let file = self.file.display();
+        let file = self.file.display().to_string();
         let model = shipped.model.map(|model| format!(" --model {model}")).unwrap_or_default();
-        Ok(say(&format!("wrote {file}; next: bedload run {file}{model}\n"))?)
+        Ok(say(&format!("wrote {file}; next: bedload run {}{model}\n", word(&file)))?)
     }
 }
 

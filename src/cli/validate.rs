@@ -52,9 +52,15 @@ impl Verb for Validate {
             .then(|| PathBuf::from("docs/validation.md"))
             .filter(|_| Path::new("docs").is_dir());
         let table = self.out.or(default).map(|file| TableFile::prepare(&file, HEAD, FIGURE)).transpose()?;
-        let mut cases = Vec::new();
+        let (mut cases, mut waiting) = (Vec::new(), Vec::new());
         for case in &self.cases {
-            cases.extend(registry.cases_of(case, &[], &self.model).map_err(ValidateError::from)?);
+            let of_it = registry.cases_of(case, &[], &self.model).map_err(ValidateError::from)?;
+            let claims = of_it.iter().map(|name| Claims::of(registry, name, tier)).collect::<Result<Vec<_>, _>>()?;
+            if claims.iter().all(|claims| claims.all == 0) {
+                return Err(no_checks(case, &claims));
+            }
+            waiting.extend(claims.into_iter().filter(|claims| claims.waiting > 0));
+            cases.extend(of_it);
         }
         let rows = validate(registry, &cases, tier, &mut Progress::new(self.json))?;
         let assessed = if self.advice || self.full && self.cases.is_empty() {
@@ -95,9 +101,43 @@ impl Verb for Validate {
                 row.advised.name
             );
         }
+        for Claims { case, waiting, .. } in waiting {
+            let checks = if waiting == 1 { "1 check".to_owned() } else { format!("{waiting} checks") };
+            text += &format!("{case}: {checks} of the tier full: --full runs them\n");
+        }
         let green = verdicts().filter(|v| *v == Verdict::Green).count();
         say(&(text + &format!("{green} pass, {red} fail, {} shown\n", verdicts().count() - green - red)))?;
         if red == 0 { Ok(()) } else { Err(CliError::Red(red)) }
+    }
+}
+
+/// What a case claims: its checks and its limit.
+struct Claims {
+    case: String,
+    model: &'static str,
+    all: usize,
+    /// those that wait for the tier full
+    waiting: usize,
+}
+
+impl Claims {
+    fn of(registry: &Registry, name: &str, tier: Tier) -> Result<Self, CliError> {
+        let (case, _) = registry.load(name, &[])?;
+        let tiers = case.checks().iter().map(|check| check.tier).chain(case.limit().map(|limit| limit.tier));
+        let waits = |of: &Tier| *of == Tier::Full && tier == Tier::Quick;
+        let (all, waiting) = (tiers.clone().count(), tiers.filter(waits).count());
+        Ok(Self { case: case.name, model: case.model, all, waiting })
+    }
+}
+
+/// That there is nothing to validate, and how to add something.
+fn no_checks(case: &str, claims: &[Claims]) -> CliError {
+    let model = claims.first().map_or("MODEL", |claims| claims.model);
+    CliError::Usage {
+        message: format!("{case} has no checks: there is nothing to validate"),
+        hint: format!(
+            "add rows [[{model}.check]] with quantity, expect, tolerance, kind and source (docs/cases.md, Checks)"
+        ),
     }
 }
 

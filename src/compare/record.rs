@@ -17,6 +17,9 @@ pub struct Request {
     /// models of the cases, as typed
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub models: Vec<String>,
+    /// `--set` arguments, for every case
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub overrides: Vec<String>,
     /// profile CSVs, as typed
     pub data: Vec<String>,
     /// where z is 0

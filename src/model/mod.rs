@@ -145,6 +145,11 @@ pub trait Solve: Debug + Send + Sync + 'static {
     /// The equations that are solved, with the numbers filled in, and the laws in them.
     fn describe(&self) -> Description;
 
+    /// What its table leaves out and follows from the flow: key, value in SI, and from what. A case that gives the key overrides it.
+    fn derived(&self) -> Vec<(&'static str, f64, &'static str)> {
+        Vec::new()
+    }
+
     /// Number of levels of the profile, or of mobile grains.
     fn cells(&self) -> usize;
 

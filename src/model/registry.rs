@@ -8,7 +8,7 @@ use serde_json::{Map, Value, json};
 use super::problem::checks;
 use super::takes::takes;
 use super::{Checked, Faults, Flow, Model, ModelInfo, Offer, Problem, Solve};
-use crate::case::{Case, CaseError, CaseFault, Fault, FlowTables, Kind, Kinds, Violation};
+use crate::case::{Case, CaseError, CaseFault, Fault, FlowTables, Kind, Kinds, Violation, for_model};
 use crate::scene::Scene;
 
 /// The flow of a case and a problem of some model, if its values allow one; or that the tables are none of the model's.
@@ -129,7 +129,7 @@ impl Registry {
 
     /// What is wrong with a scene alone: what every one of `models` says of it, if none of them takes it.
     fn of_the_flow(&self, name: &str, overrides: &[String], models: &[String]) -> Option<CaseError> {
-        let with = |model: &String| self.clone().choosing(model).load(name, overrides).err();
+        let with = |model: &String| self.of(model, models, name, overrides).err();
         let mut errors: Vec<CaseError> = models.iter().map(with).collect::<Option<_>>()?;
         let mut first = errors.pop()?;
         let same = |a: &Violation, b: &Violation| a.path == b.path && a.fault.to_string() == b.fault.to_string();
@@ -153,14 +153,23 @@ impl Registry {
         };
         let Some(choices) = error.choices() else { return Err(error) };
         let alone = choices.alone;
-        let takes = |model: &&String| !alone || self.clone().choosing(model).load(name, overrides).is_ok();
+        let takes = |model: &&String| !alone || self.of(model, choices.models, name, overrides).is_ok();
         let cases: Vec<String> = choices.models.iter().filter(takes).map(|model| with(model)).collect();
         if cases.is_empty() { Err(error) } else { Ok(cases) }
     }
 
     /// The case with each model that takes its scene, from least to most.
     pub fn takers<'a>(&'a self, name: &'a str, overrides: &'a [String]) -> impl Iterator<Item = Checked> + 'a {
-        self.entries.iter().filter_map(move |entry| self.clone().choosing(entry.info.name).load(name, overrides).ok())
+        let models: Vec<String> = self.entries.iter().map(|entry| entry.info.name.to_owned()).collect();
+        self.entries.iter().filter_map(move |entry| self.of(entry.info.name, &models, name, overrides).ok())
+    }
+
+    /// The case with one of several models: what is set in the table of another is not for it.
+    ///
+    /// # Errors
+    /// As [`Self::load`].
+    pub fn of(&self, model: &str, models: &[String], name: &str, overrides: &[String]) -> Result<Checked, CaseError> {
+        self.clone().choosing(model).load(name, &for_model(model, models, overrides))
     }
 
     /// The same of the text of a case: `name` is its stem, `source` what diagnostics call it.

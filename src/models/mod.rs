@@ -14,7 +14,7 @@ use crate::model::{Entry, OnMesh, Registry};
 pub use bed_error::BedError;
 pub use bed_fault::BedFault;
 pub use touching::{GrainCell, Spring, SpringLaw};
-use touching::{layers, load};
+use touching::{derived, layers, load};
 pub use yielding::{RegularisationSize, RegularisationTable, YieldGrid};
 
 /// The models of a program, from least to most: a line each, its folder and its types. `also` adds to a folder that is named

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::case::Fault;
 use crate::case::tables::only;
 use crate::closures::contact::{LinearSpring, Tension};
+use crate::dem::GrainBed;
 use crate::model::Faults;
 use crate::scene::{Bed, Grains};
 
@@ -114,6 +115,24 @@ impl GrainCell {
         let along = if walls.is_some() { CELL[1] } else { CELL[0] };
         [self.length.unwrap_or(along * d), walls.or(self.width).unwrap_or(CELL[0] * d)]
     }
+}
+
+/// What the table of a bed of grains leaves to the scene, as it is taken: key, value in SI, and from what.
+pub fn derived(bed: &GrainBed) -> Vec<(&'static str, f64, &'static str)> {
+    let [length, width] = bed.size;
+    // Between walls a row of grains is whole.
+    let across = if bed.side_walls { (width / bed.d).floor().max(1.0) } else { width / bed.d };
+    let along = if bed.side_walls { "100 d between side walls" } else { "10 d" };
+    let mut all = vec![
+        ("layers", bed.mobile as f64 / (length / bed.d * across), "the bed: thickness φ/(π d/6), in whole grains"),
+        ("cell.length", length, along),
+        ("closures.contact.k_n", bed.contact.k_n, "rigidity p d, p the weight of the grains on the bottom"),
+        ("closures.contact.k_s", bed.contact.k_s, "k_s_over_k_n times k_n"),
+    ];
+    if !bed.side_walls {
+        all.insert(2, ("cell.width", width, "10 d"));
+    }
+    all
 }
 
 /// Layers of mobile grains: as given, or those of a packed bed of this thickness.

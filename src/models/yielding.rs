@@ -18,6 +18,8 @@ pub struct RegularisationSize {
     pub given: usize,
     /// whether the law is `none`
     pub exact: bool,
+    /// the keys of a size that the model has
+    pub keys: &'static [&'static str],
 }
 
 codes!(RegularisationSize {
@@ -30,7 +32,10 @@ impl CaseFault for RegularisationSize {
     }
 
     fn allowed(&self) -> Option<String> {
-        Some("one of lambda, lambda_scaled with a law; neither with law = \"none\"".into())
+        Some(match self.keys {
+            [only] => format!("a {only} with a law; none with law = \"none\""),
+            keys => format!("one of {} with a law; neither with law = \"none\"", keys.join(", ")),
+        })
     }
 }
 
@@ -103,7 +108,10 @@ pub(super) fn size(table: &RegularisationTable, faults: &mut Faults) -> Option<S
         }
         (law, a, b) => {
             let given = usize::from(a.is_some()) + usize::from(b.is_some());
-            faults.push(("regularisation", RegularisationSize { given, exact: law == Smoothing::None }));
+            faults.push((
+                "regularisation",
+                RegularisationSize { given, exact: law == Smoothing::None, keys: &["lambda", "lambda_scaled"] },
+            ));
             None
         }
     }

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
+use super::path::word;
 use crate::result::{Status, codes};
 
 /// The process that writes an output.
@@ -220,6 +221,8 @@ fn how_to_go_on(folder: &Path, what: Finished, untouched: Option<&PathBuf>) -> S
     match what {
         Finished::Whole => format!("{untouched}move that folder to where it should be"),
         _ if untouched.is_empty() => "free some space and go on with --resume".into(),
-        _ => format!("{untouched}free some space and go on with --out {} --resume", folder.display()),
+        _ => {
+            format!("{untouched}free some space and go on with --out {} --resume", word(&folder.display().to_string()))
+        }
     }
 }

@@ -17,7 +17,7 @@ pub use error::{Finished, Holder, OutputError};
 pub use folder::{Folder, Mode};
 pub use grains::CHECKPOINT;
 pub use manual::Manual;
-pub use path::default_folder;
+pub use path::{default_folder, word};
 pub use run::{
     Written, fingerprint, read_field, read_run, read_series, redraw, write_failure, write_outcome, write_running,
 };

@@ -60,6 +60,17 @@ fn what_has_no_choice_is_reported() {
     let scratch = Scratch::new();
     let found = scratch.bedload(["advise", "section_2d_square", "--json"]).exits(2).json();
     assert_eq!(found["error"]["code"], "one-model", "{found}");
+    // What is said of it is true: a channel has other models, and so have grains alone.
+    for (case, words) in [
+        ("exact_1d_bingham", "bingham-exact solves a scene of the kind \"channel\""),
+        ("bingham_1d_plane", "bingham solves a scene of the kind \"channel\""),
+        ("grains_3d_bed_quick", "dem solves a scene of the kind \"granular\""),
+        ("kinetic_1d_waves", "this case of two-fluid is none"),
+    ] {
+        let message = scratch.bedload(["advise", case, "--json"]).exits(2).json()["error"]["message"].take();
+        let message = message.as_str().unwrap();
+        assert!(message.starts_with("advice is for steady flows over a bed") && message.ends_with(words), "{message}");
+    }
     for case in ["two_fluid_1d_avalanche", "kinetic_1d_waves", "kinetic_1d_settling"] {
         let found = scratch.bedload(["advise", case, "--json"]).exits(2).json();
         assert_eq!(found["error"]["code"], "one-model", "{found}");
@@ -85,4 +96,35 @@ fn what_has_no_choice_is_reported() {
     );
     scratch.bedload(["advise", "sheet_1d_sumer91", "--tolerance", "0"]).exits(2);
     scratch.bedload(["advise", "no_such_case"]).exits(2);
+}
+
+#[test]
+fn a_model_that_is_chosen_for_a_scene_alone_is_that_of_the_advice() {
+    let scratch = Scratch::new();
+    scratch.write(
+        "sand.toml",
+        "format = 2\nscene = \"bed\"\ncase.title = \"Sand\"\n\
+        fluid = { density = \"1000 kg/m3\", viscosity = \"1e-3 Pa s\" }\n\
+        grains = { diameter = \"2 mm\", density = \"2650 kg/m3\" }\nbed.thickness = \"40 mm\"\n\
+        flow = { depth = \"60 mm\", slope = \"1.5 deg\" }\n",
+    );
+    let advise = |line: &[&str]| scratch.bedload([&["advise", "sand.toml"], line].concat()).exits(0);
+    // Its terms are those that are assessed, as of a case that has its table.
+    scratch.write("sheet.toml", scratch.read("sand.toml") + "[sheet-flow]\n");
+    let with_table = scratch.bedload(["advise", "sheet.toml", "--json"]).exits(0).json();
+    let chosen = advise(&["--model", "sheet-flow", "--json"]).json();
+    assert_eq!(chosen["of"], "sheet-flow");
+    assert_eq!((&chosen["terms"], &chosen["numbers"]), (&with_table["terms"], &with_table["numbers"]));
+    assert!(chosen["terms"].as_array().unwrap().iter().any(|term| term["what"] == "suspension"), "{chosen}");
+    assert!(advise(&["--model", "sheet-flow"]).out.contains("\n  terms of sheet-flow\n"));
+    assert!(advise(&["--model", "two-fluid"]).out.contains("two-fluid has no term that is assessed"));
+    // Of the scene alone they are those of what is advised.
+    let alone = advise(&["--json"]).json();
+    assert_eq!((&alone["model"], &alone["of"]), (&"coupled".into(), &"coupled".into()));
+    // Where the model that was chosen is the least, its case is written: a scene alone is none.
+    let write = ["--model", "coupled", "--set", "layers=12", "--write", "least.toml"];
+    let out = advise(&write).out;
+    assert!(out.contains("terms of coupled") && out.contains("wrote least.toml"), "{out}");
+    let checked = scratch.bedload(["check", "least.toml"]).exits(0).out;
+    assert!(checked.contains("least: valid, coupled, 1200 levels"), "{checked}");
 }

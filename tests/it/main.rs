@@ -4,6 +4,7 @@
 
 mod advise;
 mod architecture;
+mod arguments;
 mod calibrate;
 mod cases_bad;
 mod cases_good;

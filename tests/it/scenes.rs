@@ -306,9 +306,33 @@ fn a_case_that_cannot_be_migrated_is_not_and_one_that_does_not_check_is_named() 
     }
     scratch.write("old.toml", COMMENTED.replacen("phi = 0.6", "phi = 7", 1));
     let answer = scratch.bedload(["migrate", "old.toml", "new.toml"]).exits(2);
+    assert!(answer.err.starts_with("the new file does not check yet; nothing was written:\n"), "{}", answer.err);
+    assert!(answer.err.contains("bed.phi = 7 is out of range") && answer.err.contains("--unchecked"), "{}", answer.err);
+    assert!(answer.out.is_empty() && !scratch.path("new.toml").exists(), "{}", answer.out);
+    // Shown all the same, and written where it is asked for.
+    let shown = scratch.bedload(["migrate", "old.toml", "-"]).exits(2);
+    assert!(shown.out.contains("phi = 7\n") && shown.err.contains("out of range"), "{}", shown.err);
+    let answer = scratch.bedload(["migrate", "old.toml", "new.toml", "--unchecked"]).exits(0);
     assert!(answer.err.starts_with("the new file does not check yet:\n"), "{}", answer.err);
-    assert!(answer.err.contains("bed.phi = 7 is out of range") && answer.out == "wrote new.toml\n", "{}", answer.err);
+    assert!(answer.err.contains("bed.phi = 7 is out of range"), "{}", answer.err);
+    assert_eq!(answer.out, "wrote new.toml; mend it, then bedload check new.toml\n");
+    assert_eq!(scratch.read("new.toml"), shown.out);
     assert!(scratch.read("new.toml").contains("phi = 7\n"));
+}
+
+#[test]
+fn texts_of_several_lines_are_migrated_byte_for_byte() {
+    let scratch = Scratch::new();
+    let title = "\"\"\"\nCreep\n\n\n  in # no comment\n\n\n\n[no.table]\n \n\n\"\"\"";
+    let source = "'''by\n\n\nquadrature'''";
+    let old = COMMENTED.replacen("\"Creep\"", title, 1).replacen("\"quadrature\"", source, 1);
+    scratch.write("old.toml", old.replacen("\n[fluid]", "\n\n\n\n[fluid]", 1));
+    scratch.bedload(["migrate", "old.toml", "new.toml"]).exits(0);
+    let new = scratch.read("new.toml");
+    assert!(new.contains(&format!("title = {title}")) && new.contains(&format!("source = {source}")), "{new}");
+    // Between the lines of the file one empty line is enough.
+    let gaps = new.replace(title, "").replace(source, "");
+    assert!(!gaps.contains("\n\n\n"), "{new}");
 }
 
 /// Twelve lines, and no model.

@@ -1,8 +1,13 @@
 //! What `bedload migrate` moves: comments, laws, and the depth that a height leaves over its bed.
 
-use crate::closures::dilatancy::PhiI;
+use std::ops::Range;
+use std::path::Path;
+
 use toml_edit::{Decor, Document, InlineTable, Item, Key, RawString, Table, Value};
 
+use super::CliError;
+use crate::case::format1::RESULTS;
+use crate::closures::dilatancy::PhiI;
 use crate::units::parse_quantity;
 
 /// Where a key stands, as the begin of a message; nothing where that cannot be said.
@@ -26,6 +31,45 @@ fn lines(part: &str) -> String {
 /// The comments before and behind, a line each.
 pub(super) fn comments(decor: &Decor) -> String {
     lines(raw(decor.prefix())) + &lines(raw(decor.suffix()))
+}
+
+/// The text with at most one empty line in a row; in texts of several lines they stay.
+pub(super) fn without_gaps(text: &str) -> String {
+    let mut kept = Vec::new();
+    if let Ok(document) = Document::parse(text) {
+        texts(document.as_item(), &mut kept);
+    }
+    kept.sort_by_key(|span: &Range<usize>| span.start);
+    let (mut found, mut at) = (String::with_capacity(text.len()), 0);
+    for span in kept.into_iter().chain([text.len()..text.len()]) {
+        let mut between = text[at..span.start].to_owned();
+        while between.contains("\n\n\n") {
+            between = between.replace("\n\n\n", "\n\n");
+        }
+        found += &between;
+        found += &text[span.clone()];
+        at = span.end;
+    }
+    found
+}
+
+/// Where the texts in it stand.
+fn texts(item: &Item, found: &mut Vec<Range<usize>>) {
+    match item {
+        Item::Value(value) => texts_in(value, found),
+        Item::Table(table) => table.iter().for_each(|(_, item)| texts(item, found)),
+        Item::ArrayOfTables(rows) => rows.iter().flat_map(Table::iter).for_each(|(_, item)| texts(item, found)),
+        Item::None => {}
+    }
+}
+
+fn texts_in(value: &Value, found: &mut Vec<Range<usize>>) {
+    match value {
+        Value::String(text) => found.extend(text.span()),
+        Value::Array(values) => values.iter().for_each(|value| texts_in(value, found)),
+        Value::InlineTable(table) => table.iter().for_each(|(_, value)| texts_in(value, found)),
+        _ => {}
+    }
 }
 
 /// What stands before and behind a key and its value, or the header of a table.
@@ -144,4 +188,23 @@ pub(super) fn packing(model: &Item) -> Option<f64> {
     let at_rest = model.get("bed_level")?.as_str() == Some("at-rest");
     let given = || model.get("closures")?.get("dilatancy")?.get("phi_max")?.as_float();
     at_rest.then(|| given().unwrap_or(PhiI::default().phi_max))
+}
+
+/// The text of a case of format 1, its results by the names that they have now.
+pub(super) fn read(path: &Path) -> Result<String, CliError> {
+    let text = std::fs::read_to_string(path).map_err(|error| CliError::Usage {
+        message: format!("cannot read {}: {error}", path.display()),
+        hint: "OLD is a file of format 1; shipped cases are of format 2 already".into(),
+    })?;
+    let renamed = |text: String, (old, new): &(&str, &str)| text.replace(&format!("\"{old}\""), &format!("\"{new}\""));
+    Ok(RESULTS.iter().fold(text, renamed))
+}
+
+/// What is wrong with a file, and a hint.
+pub(super) type Refused = (String, String);
+
+/// That two keys are there for one thing.
+pub(super) fn both(text: &str, first: &str, second: &str, why: &str) -> Refused {
+    let place = line(text, second);
+    (format!("{place}{first} and {second} are both there; {why}"), "take out the one that does not hold".into())
 }

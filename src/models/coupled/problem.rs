@@ -18,7 +18,7 @@ use crate::result::Premise;
 use crate::result::Results;
 use crate::scene::Scene;
 
-use crate::models::{layers, load};
+use crate::models::{derived, layers, load};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Figure, Outcome};
 use crate::scene::{BedScene, Top};
@@ -223,6 +223,15 @@ impl Solve for Coupled {
             self.fluctuation.info(),
         ];
         Description { form: None, equations: equations(self), laws }
+    }
+
+    fn derived(&self) -> Vec<(&'static str, f64, &'static str)> {
+        let mut all = derived(&self.bed);
+        if self.bed.bottom == Bottom::Steps {
+            all.push(("relief", self.relief.largest, "d/3"));
+            all.push(("relief_step", self.relief.step, "the relief"));
+        }
+        all
     }
 
     fn study(&self) -> StudyPlan {

@@ -7,7 +7,7 @@ use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
 use crate::model::{Description, Faults, Model, ModelInfo, Solve};
 use crate::models::BedFault;
-use crate::models::{layers, load};
+use crate::models::{derived, layers, load};
 use crate::result::Context;
 use crate::result::{CheckpointError, Failure, Outcome};
 use crate::scene::{BenchmarkScene, GranularScene};
@@ -106,6 +106,10 @@ impl Solve for GrainBed {
     fn describe(&self) -> Description {
         let (equations, laws) = (bed::equations(self), vec![&linear_spring::INFO]);
         Description { form: None, equations, laws }
+    }
+
+    fn derived(&self) -> Vec<(&'static str, f64, &'static str)> {
+        derived(self)
     }
 
     fn cells(&self) -> usize {

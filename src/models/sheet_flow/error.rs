@@ -19,9 +19,20 @@ pub enum SheetFlowFault {
     /// The pseudo-time iteration with the exact yield.
     #[error("the iteration needs a regularisation: the viscosity of grains at rest is infinite")]
     IterationNeedsCreep,
+    /// A lid that takes more than the weight of the fluid along the slope.
+    #[error(
+        "the lid takes {stress} Pa, and the fluid over the bed exerts {drive:.6} Pa along the slope: nothing is left to drive the bed"
+    )]
+    LidTakesAll {
+        /// stress of the lid \[Pa]
+        stress: f64,
+        /// weight of the fluid along the slope, per area \[Pa]
+        drive: f64,
+    },
 }
 
 codes!(SheetFlowFault {
+    Self::LidTakesAll { .. } => "lid-takes-all",
     Self::PackedBeyond { .. } => "packed-beyond",
     Self::IterationNeedsCreep => "iteration-needs-creep",
 });
@@ -35,12 +46,14 @@ impl CaseFault for SheetFlowFault {
         match self {
             Self::PackedBeyond { bed, .. } => Some(format!("at least {bed}; no below_packed = \"zero\"")),
             Self::IterationNeedsCreep => None,
+            Self::LidTakesAll { drive, .. } => Some(format!("less than {drive:.6} Pa")),
         }
     }
 
     fn hint(&self) -> Option<String> {
         match self {
             Self::PackedBeyond { .. } => None,
+            Self::LidTakesAll { .. } => Some("a smaller stress, a steeper slope or a deeper flow".into()),
             Self::IterationNeedsCreep => Some("give [regularisation] a law and a lambda, or take newton".into()),
         }
     }

@@ -167,7 +167,8 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             (SheetSmoothing::Simple, Some(lambda)) => Some(lambda),
             (law, given) => {
                 let exact = law == SheetSmoothing::None;
-                faults.push(("regularisation", RegularisationSize { given: usize::from(given.is_some()), exact }));
+                let given = usize::from(given.is_some());
+                faults.push(("regularisation", RegularisationSize { given, exact, keys: &["lambda"] }));
                 None
             }
         };
@@ -175,6 +176,15 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             faults.push(("method", SheetFlowFault::IterationNeedsCreep));
         }
         let (lambda, sine) = (lambda?, sine?);
+        let drive = sine.map(|sine| fluid.density * flow.gravity * sine * depth);
+        if let (Lid::Stress(law), Some(drive)) = (lid, drive)
+            && flow.shields.is_none()
+            && flow.u_star.is_none()
+            && depth > 0.0
+            && law.stress >= drive
+        {
+            faults.push(("flow.top", SheetFlowFault::LidTakesAll { stress: law.stress, drive }));
+        }
         let problem = SheetFlow {
             rho_f: fluid.density,
             eta: fluid.viscosity,
