@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::{fmt, io};
 
-use super::path::word;
+use super::word::word;
 use crate::result::{Status, codes};
 
 /// The process that writes an output.

@@ -11,15 +11,17 @@ mod path;
 mod run;
 mod study;
 mod table;
+mod word;
 
 pub use comparison::{Compared, prepare_comparison, write_comparison};
 pub use error::{Finished, Holder, OutputError};
 pub use folder::{Folder, Mode};
 pub use grains::CHECKPOINT;
 pub use manual::Manual;
-pub use path::{default_folder, word};
+pub use path::default_folder;
 pub use run::{
     Written, fingerprint, read_field, read_run, read_series, redraw, write_failure, write_outcome, write_running,
 };
 pub use study::StudyFolder;
 pub use table::TableFile;
+pub use word::word;

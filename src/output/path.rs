@@ -17,13 +17,6 @@ pub fn default_folder(name: &str) -> PathBuf {
     Path::new("runs").join(plain)
 }
 
-/// An argument as a shell takes it back.
-#[must_use]
-pub fn word(argument: &str) -> String {
-    let plain = |s: &str| !s.is_empty() && s.chars().all(|c| c.is_alphanumeric() || "/._-+,:=".contains(c));
-    if plain(argument) { argument.to_owned() } else { format!("'{}'", argument.replace('\'', "'\\''")) }
-}
-
 /// The place that `typed` leads to, free of links and `..`: physically as far as it exists, by its names beyond. Relative to
 /// the current folder if it was typed so and lies in it; nothing is made.
 ///

@@ -41,7 +41,7 @@ pub(super) fn without_gaps(text: &str) -> String {
     }
     kept.sort_by_key(|span: &Range<usize>| span.start);
     let (mut found, mut at) = (String::with_capacity(text.len()), 0);
-    for span in kept.into_iter().chain([text.len()..text.len()]) {
+    for span in kept.into_iter().chain(std::iter::once(text.len()..text.len())) {
         let mut between = text[at..span.start].to_owned();
         while between.contains("\n\n\n") {
             between = between.replace("\n\n\n", "\n\n");
