@@ -126,5 +126,5 @@ fn a_model_that_is_chosen_for_a_scene_alone_is_that_of_the_advice() {
     let out = advise(&write).out;
     assert!(out.contains("terms of coupled") && out.contains("wrote least.toml"), "{out}");
     let checked = scratch.bedload(["check", "least.toml"]).exits(0).out;
-    assert!(checked.contains("least: valid, coupled, 1200 levels"), "{checked}");
+    assert!(checked.contains("least: valid, coupled, 1200 grains"), "{checked}");
 }

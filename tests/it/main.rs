@@ -27,6 +27,7 @@ mod kinetic;
 mod laws;
 mod limits;
 mod lock;
+mod migrate;
 mod mutate;
 mod never_panics;
 mod own_law;

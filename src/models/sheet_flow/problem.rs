@@ -57,6 +57,8 @@ pub struct SheetFlow<F = MuI> {
     pub height: f64,
     /// bed level, in the flow or at rest packed at phi_max \[m]
     pub level: f64,
+    /// depth of the clear fluid over the bed at rest \[m]
+    pub depth: f64,
     /// what the bed level is
     pub bed_level: BedLevel,
     /// wanted fluid stress at the bed level \[Pa]
@@ -193,6 +195,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             g: flow.gravity,
             height,
             level,
+            depth,
             bed_level: table.bed_level,
             // Where the depth follows from the stress, depth and slope are the drive, as for every model of this scene.
             tau_b: match (flow.shields, flow.u_star) {
@@ -275,9 +278,12 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
             Err(failure) => return Err(failure),
         };
         let result = |name: &str| solved.as_ref().and_then(|results| results.get(name));
-        let theta = flow.tau_b.map(|tau| tau / flow.stress_scale()).or(result(q::SHIELDS_BED.name)).unwrap_or(f64::NAN);
-        let depth = flow.height - flow.level;
-        let balanced = theta * flow.stress_scale() / (flow.rho_f * flow.g * depth);
+        let weight = |sine: f64| flow.rho_f * flow.g * flow.depth * sine;
+        let free = flow.sine.filter(|_| flow.lid == Lid::FreeSurface);
+        let found = || result(q::SHIELDS_BED.name);
+        let theta =
+            flow.tau_b.or(free.map(weight)).map(|tau| tau / flow.stress_scale()).or_else(found).unwrap_or(f64::NAN);
+        let balanced = theta * flow.stress_scale() / weight(1.0);
         Ok(Some(Flow::Turbulent(TurbulentScene {
             kind: Self::INFO.name,
             rho_f: flow.rho_f,
@@ -285,7 +291,7 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
             nu: flow.eta / flow.rho_f,
             d: flow.d,
             g: flow.g,
-            depth,
+            depth: flow.depth,
             sine: flow.sine.or(result(q::SLOPE_SINE.name)).unwrap_or(balanced),
             theta,
             mu_s: flow.friction.least(),
@@ -299,7 +305,7 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
     fn premises(&self, scene: &Scene, results: &Results) -> Vec<Premise> {
         let (Scene::Bed(scene), flow) = (scene, &self.problem) else { return Vec::new() };
         let of = |quantity: &q::Quantity| results.get(quantity.name);
-        let (depth, k_s) = (flow.height - flow.level, of(&q::ROUGHNESS));
+        let (depth, k_s) = (flow.depth, of(&q::ROUGHNESS));
         let rough = of(&q::U_STAR).zip(k_s).map(|(u_star, k_s)| u_star * k_s * flow.rho_f / flow.eta);
         let mut found = vec![
             premises::SHEET.maybe(of(&q::SHIELDS)),
