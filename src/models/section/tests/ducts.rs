@@ -177,6 +177,15 @@ fn a_square_duct_stops_at_the_critical_bingham_number() {
     assert!(carried < onset && carried > 0.995 * onset, "{carried}");
 }
 
+#[test]
+fn forces_balance_on_fine_meshes() {
+    // The plug is rigid to 1e-10 of the shear rate: strains as differences of its velocity left 3e-4 of the drive here.
+    let solution = exact(&bingham(SQUARE, 0.1), 256);
+    println!("{:.1e}", solution.solved.imbalance);
+    assert!(solution.solved.imbalance < 1e-10, "{:e}", solution.solved.imbalance);
+    assert!(Numbers::of(&solution).power.abs() < 1e-10);
+}
+
 fn exact_graded(duct: &Duct, rows: usize) -> Solution {
     solve(duct, rows, &Regularisation::EXACT, &SectionMethod { finest: 0.1, ..HOW })
 }
