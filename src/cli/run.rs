@@ -337,11 +337,12 @@ fn at_round_off(balances: &[Balance]) -> bool {
 const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::SHIELDS, &quantity::U_STAR, &quantity::SHIELDS_BED],
     &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
-    &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE],
+    &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE, &quantity::UNYIELDED_SHARE_ERROR],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
     &[&quantity::LAYER_THICKNESS, &quantity::TEMPERATURE_MAX, &quantity::GROWTH_RATE],
     &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],
     &[&quantity::BINGHAM, &quantity::HALF_PLUG, &quantity::PLUG_VELOCITY],
+    &[&quantity::PLUG_SHARE, &quantity::DEAD_SHARE, &quantity::YIELD_OVER_CRITICAL],
     &[&quantity::PHI_BULK, &quantity::BED_LEVEL, &quantity::COORDINATION],
     &[&quantity::RESTITUTION, &quantity::CONTACT_TIME, &quantity::TANGENTIAL_VELOCITY],
     &[&quantity::SURFACE_VELOCITY, &quantity::INERTIAL_NUMBER_FILM, &quantity::ROUGHNESS_LENGTH],

@@ -170,11 +170,13 @@ catalogue! {
     U_MAX_DIMENSIONLESS = "u_max_dimensionless", "dimensionless largest velocity", "u_max η/(S H)", "1", "largest mixture velocity over S H/η";
     SECTION_AREA = "section_area_m2", "area of the section", "A", "m²", "of the whole cross-section, bed included";
     PLUG_SHARE = "plug_share", "share of the plug", "A_plug/A", "1", "area that moves without shear over that of the section";
+    YIELD_OVER_CRITICAL = "yield_over_critical", "yield stress over that which stops the flow", "τ_0/τ_c", "1", "nothing moves from 1 on; τ_c is the drive times the smallest ratio of area to rim of all parts of the section";
     DEAD_SHARE = "dead_share", "share at rest", "A_dead/A", "1", "area at rest below the yield stress over that of the section";
     STREAM_MAX = "stream_function_max", "strength of the vortex", "|ψ|/(U H)", "1", "largest magnitude of the stream function over velocity of the lid and side";
     VORTEX_Y = "vortex_y_m", "vortex centre across", "y_v", "m", "distance of the largest stream function from the wall that the lid leaves";
     VORTEX_Z = "vortex_z_m", "vortex centre above the bottom", "z_v", "m", "elevation of the largest stream function";
-    UNYIELDED_SHARE = "unyielded_share", "unyielded share", "A_0/A", "1", "area below the yield stress, moving or at rest, over that of the section; first order in the size of the cells";
+    UNYIELDED_SHARE = "unyielded_share", "unyielded share", "A_0/A", "1", "area below the yield stress, moving or at rest, over that of the section; extrapolated from all and half the cells, with the order of 1 that it has";
+    UNYIELDED_SHARE_ERROR = "unyielded_share_error", "error of the unyielded share", "δ(A_0/A)", "1", "what the extrapolation adds, and what it differs by from that of half the cells";
     SECTION_DEVIATION = "section_deviation", "deviation of the whole duct from its section", "|Δu|/u_max", "1", "largest difference of the velocity along the flow from that of the section on the same elements, over the largest velocity";
     CROSS_FLOW = "cross_flow", "flow across the duct", "|v|/u_max", "1", "largest velocity across the whole duct over the largest one along it";
     UNEVEN_FLOW = "uneven_flow", "unevenness along the duct", "|Δ_x u|/u_max", "1", "largest deviation of the velocity from its mean along the whole duct, over the largest velocity";

@@ -13,6 +13,7 @@ mod cavity_outcome;
 mod dual;
 mod duct;
 mod element;
+mod equations;
 mod error;
 mod fit;
 mod full;
@@ -29,6 +30,7 @@ mod tests;
 
 pub use case::Method;
 use cavity_outcome::{equations as cavity_equations, run as run_cavity};
+use equations::equations;
 pub use error::{SectionError, SectionFault};
-use outcome::{equations, run};
+use outcome::run;
 pub use problem::{CavityFlow, Contents, Duct, DuctBed, DuctFlow, Outline, SectionMethod};

@@ -126,12 +126,18 @@ impl<const D: usize, const N: usize> Program<D, N> {
 
     /// Rates of strain `B x + c`, into `g`.
     pub fn strains(&self, x: &[f64], g: &mut [[f64; D]]) {
-        for ((block, points), g) in self.each().zip(g.chunks_mut(self.per_block)) {
-            let local = block.gather(x);
-            for (point, g) in points.iter().zip(g) {
-                *g = std::array::from_fn(|d| {
-                    point.offset[d] + point.strain[d].iter().zip(&local).map(|(b, x)| b * x).sum::<f64>()
-                });
+        self.changes(x, g);
+        for (g, point) in g.iter_mut().zip(&self.points) {
+            g.iter_mut().zip(point.offset).for_each(|(g, c)| *g += c);
+        }
+    }
+
+    /// Changes `B dx` of the rates of strain, into `dg`.
+    pub fn changes(&self, dx: &[f64], dg: &mut [[f64; D]]) {
+        for ((block, points), dg) in self.each().zip(dg.chunks_mut(self.per_block)) {
+            let local = block.gather(dx);
+            for (point, dg) in points.iter().zip(dg) {
+                *dg = std::array::from_fn(|d| point.strain[d].iter().zip(&local).map(|(b, x)| b * x).sum::<f64>());
             }
         }
     }
