@@ -27,6 +27,7 @@ mod limits;
 mod lock;
 mod mutate;
 mod never_panics;
+mod no_bed;
 mod own_law;
 mod own_model;
 mod page;
