@@ -21,6 +21,7 @@ pub mod role;
 pub mod settling;
 pub mod side_wall;
 pub mod suspension;
+pub mod threshold;
 pub mod transport;
 pub mod wall;
 

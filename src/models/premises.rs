@@ -118,6 +118,14 @@ pub const SUBMERGED: Rule = Rule {
     why: "the mixing length is that of wakes, not that of a wall",
     source: "ours",
 };
+/// A bed that rests on the bottom of its domain.
+pub const RESTS_ON_ITS_BOTTOM: Rule = Rule {
+    premise: "the bed rests on its bottom",
+    number: "pull of bed and water at the bottom over the friction there",
+    limits: Limits::Below(0.8, 1.0),
+    why: "all of the bed moves, down to its bottom: the rate is that of a bed of this thickness",
+    source: "Revil-Baudard & Chauchat (2013), eq. (32); 0.8 is ours",
+};
 /// A slope on which a bed rests.
 pub const RESTS: Rule = Rule {
     premise: "a bed rests on this slope",

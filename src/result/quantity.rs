@@ -161,6 +161,8 @@ catalogue! {
     SUSPENSION_NUMBER = "suspension_number", "suspension number", "w_s/u_*", "1", "settling velocity over friction velocity";
     FREE_FALL_SHARE = "free_fall_share", "share in free fall", "", "1", "part of the moving solid volume of the bed layer whose rearrangement is a free fall";
     TURBULENT_SHARE = "turbulent_share", "share in turbulent fall", "", "1", "part of the moving solid volume of the bed layer whose rearrangement time is turbulent";
+    CUT_EFFECT = "cut_effect", "effect of the cut", "", "1", "largest relative change of the transport rate where the buoyancy of the viscous stress is left out down to the change of type alone, or twice as deep";
+    SHIELDS_LEAST = "shields_least", "least Shields number of a moving layer", "θ_0", "1", "Shields number from which on a layer of grains moves, where the flow was followed to that";
     CHANGE_OF_TYPE = "change_of_type_m", "depth of the change of type", "m_0", "m", "solid volume under the bed level down to which the equations as published are of another type";
     FLOW_RATE = "flow_rate_m3_s", "flow rate", "Q", "m³/s", "integral of the mixture velocity over the cross-section";
     FLOW_RATE_DIMENSIONLESS = "flow_rate_dimensionless", "dimensionless flow rate", "Q η/(S H³)", "1", "flow rate over S H³/η, S the stress (ρ_p - ρ_f) g H over a bed, -dp/dx H otherwise";

@@ -30,6 +30,7 @@ mod lock;
 mod migrate;
 mod mutate;
 mod never_panics;
+mod no_bed;
 mod own_law;
 mod own_model;
 mod page;

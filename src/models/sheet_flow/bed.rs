@@ -108,13 +108,11 @@ fn weight_below(mesh: &Mesh, j: usize) -> f64 {
     (1.0 - 1.0 / z).max(0.5)
 }
 
-/// Share of the volume of node `j` that lies below the cut.
-fn below_cut<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, m: f64, j: usize) -> f64 {
-    if j == 0 {
-        return 0.0;
-    }
-    let (above, below) = (m * mesh.middles[j - 1], m * mesh.middles[j]);
-    ((below - flow.cut) / (below - above)).clamp(0.0, 1.0)
+/// Share of the solid volume from `above` to `below`, shares of m, that lies below the cut, and its derivative by m.
+fn below_cut<F: FrictionLaw>(flow: &Flow<F>, m: f64, (above, below): (f64, f64)) -> (f64, f64) {
+    let share = (below - flow.cut / m) / (below - above);
+    let inside = share > 0.0 && share < 1.0;
+    (share.clamp(0.0, 1.0), if inside { flow.cut / (m * m * (below - above)) } else { 0.0 })
 }
 
 /// What a cell gives to the volumes of its nodes: the fluid stress, and those of its laws.
@@ -149,6 +147,8 @@ pub struct Weights {
     pub below: f64,
     /// share of the volume that is below the cut
     pub under_cut: f64,
+    /// its derivative by the solid volume of the bed
+    pub under_cut_by_m: f64,
 }
 
 impl Weights {
@@ -156,7 +156,9 @@ impl Weights {
     #[must_use]
     pub fn of<F: FrictionLaw>(mesh: &Mesh, flow: &Flow<F>, m: f64, j: usize) -> Self {
         let own = if j == 0 { FIRST } else { 1.0 };
-        Self { own, below: weight_below(mesh, j), under_cut: below_cut(flow, mesh, m, j) }
+        let ends = |j: usize| (mesh.middles[j - 1], mesh.middles[j]);
+        let (under_cut, under_cut_by_m) = if j == 0 { (0.0, 0.0) } else { below_cut(flow, m, ends(j)) };
+        Self { own, below: weight_below(mesh, j), under_cut, under_cut_by_m }
     }
 }
 
@@ -219,15 +221,14 @@ pub(super) fn at_yield<T: Real, F: FrictionLaw>(
     let still =
         Side { phi: last.phi, s: zero, tau_p: cosine * m * flow.friction.least(), tau_f: zero, dz: zero, dm: zero };
     // The slip vanishes at the yield level; nothing shears there, and the stress of the fluid is all viscous.
-    let (w, node) = ((w * 0.25, zero), Weights { own: 1.0, below: 0.0, under_cut });
+    let (w, node) = ((w * 0.25, zero), Weights { own: 1.0, below: 0.0, under_cut, under_cut_by_m: 0.0 });
     let (s, _) = momentum(flow, (last, still), w, node, sine);
     momentum(flow, (last, Side { s, tau_f: s, ..still }), w, node, sine).1
 }
 
-/// Share of the lower half of the last cell that is below the cut.
-pub(super) fn last_below_cut<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, m: f64) -> f64 {
-    let above = m * mesh.middles[mesh.cells() - 1];
-    ((m - flow.cut) / (m - above)).clamp(0.0, 1.0)
+/// Share of the lower half of the last cell that is below the cut, and its derivative by m.
+pub(super) fn last_below_cut<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, m: f64) -> (f64, f64) {
+    below_cut(flow, m, (mesh.middles[mesh.cells() - 1], 1.0))
 }
 
 /// The residual of the momentum of the grains at the yield level.
@@ -235,5 +236,5 @@ pub(super) fn last_below_cut<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, m: f64
 pub fn yield_residual<F: FrictionLaw>(flow: &Flow<F>, mesh: &Mesh, state: &State) -> f64 {
     let c = mesh.cells() - 1;
     let last = Side::of(&cell(flow, mesh, state, c), state.s(c));
-    at_yield(flow, last, state.w(c), (state.sine, state.m), last_below_cut(flow, mesh, state.m))
+    at_yield(flow, last, state.w(c), (state.sine, state.m), last_below_cut(flow, mesh, state.m).0)
 }

@@ -63,7 +63,9 @@ impl Setting {
     pub fn scaled<F: FrictionLaw>(sheet: &SheetFlow<F>) -> Self {
         let lid = match sheet.lid {
             Lid::Stress(law) => Lid::Stress(Stress { stress: law.stress / sheet.stress_scale() }),
-            Lid::ColebrookWhite(law) => Lid::ColebrookWhite(ColebrookWhite { roughness: law.roughness / sheet.d }),
+            Lid::ColebrookWhite(law) => {
+                Lid::ColebrookWhite(ColebrookWhite { roughness: law.roughness / sheet.d, ..law })
+            }
             other => other,
         };
         Self {
@@ -95,7 +97,7 @@ impl Setting {
             Lid::Solved => flow.fluid_weight(inflow.sine) * totals.height - inflow.tau_b,
             Lid::ColebrookWhite(law) => {
                 let mean = totals.discharge / totals.height;
-                let diameter = totals.height * 2.0;
+                let diameter = totals.height * law.diameter.heights();
                 law.factor(mean.abs() * diameter / flow.nu, diameter) * mean * mean / 8.0
             }
         }

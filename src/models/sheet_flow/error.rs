@@ -64,13 +64,16 @@ impl CaseFault for SheetFlowFault {
 pub enum SheetFlowError {
     /// A bed that the flow sets in motion down to its bottom.
     #[error(
-        "the whole bed moves: at a Shields number of {shields:.4} the grains yield down to the bottom of the bed, {bed_m:.6} m below its top"
+        "the whole bed moves: at a Shields number of {shields:.4} the grains yield down to the bottom of the bed, {bed_m:.6} m below its top{}",
+        edge(most)
     )]
     NothingAtRest {
         /// thickness of the bed in the flow \[m]
         bed_m: f64,
         /// Shields number
         shields: f64,
+        /// share of the drive at which the last grains come to rest, where that is known
+        most: Option<f64>,
     },
     /// A solution of the discrete equations that is none of the flow.
     #[error(
@@ -116,6 +119,13 @@ pub enum SheetFlowError {
         /// that in which the term is left out \[m]
         cut_m: f64,
     },
+}
+
+/// Up to where a bed rests.
+fn edge(most: &Option<f64>) -> String {
+    most.map_or_else(String::new, |most| {
+        format!("; its lowest grains rest up to {most:.4} times this drive (slope or stress)")
+    })
 }
 
 codes!(SheetFlowError {

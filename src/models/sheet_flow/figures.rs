@@ -20,7 +20,7 @@ pub(super) fn figures(name: &str, outcome: &Outcome) -> Vec<Figure> {
     let sheet = Sheet { profile, z: profile.axis(), bottom, thickness };
     // The stress of the interface, where the grains carry none.
     let interface = sheet.z.iter().position(|&z| z >= bottom + thickness);
-    let tau_b = interface.and_then(|row| sheet.total(row + 1)).filter(|tau| *tau > 0.0);
+    let tau_b = interface.and_then(|row| sheet.total(row + 2)).filter(|tau| *tau > 0.0);
     let mut figures = Vec::new();
     if let Some(tau_b) = tau_b {
         figures.push(sheet.repartition(name, tau_b));
@@ -46,8 +46,10 @@ impl Sheet<'_> {
         Some(self.at(&quantity::TAU_VISCOUS, row)? + self.at(&quantity::TAU_REYNOLDS, row)?)
     }
 
+    /// In grains at rest that of the fluid is not defined, and grains carry the whole.
     fn total(&self, row: usize) -> Option<f64> {
-        Some(self.fluid(row)? + self.at(&quantity::TAU_PARTICLE, row).unwrap_or(0.0))
+        let grains = self.at(&quantity::TAU_PARTICLE, row);
+        self.fluid(row).map(|fluid| fluid + grains.unwrap_or(0.0)).or(grains.filter(|_| self.z[row] < self.bottom))
     }
 
     /// A curve over the height in the sheet.
@@ -89,7 +91,11 @@ impl Sheet<'_> {
         ];
         Figure {
             stem: "sheet".into(),
-            caption: format!("{case}: {} over the height in the sheet.", sentence(&panels)),
+            caption: format!(
+                "{case}: {} over the height in the sheet. At the bed level the flux jumps: below it grains lag behind the fluid, above it \
+                 they move with it.",
+                sentence(&panels)
+            ),
             y: Axis::linear("height over the yield level, in δₛ", ""),
             panels,
             levels: vec![Level { y: 1.0, label: "bed level".into() }],

@@ -12,6 +12,9 @@ use crate::closures::suspension::Settling;
 use crate::models::sheet_flow::SheetFlow;
 use crate::numerics::dual::Real;
 
+/// The largest regularisation whose sheet has a bottom, by a factor of ten [1/s] (docs/sheet-flow.md).
+const CREEP: f64 = 1e-6;
+
 /// Laws and constants of the flow, scaled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow<F = MuI> {
@@ -37,6 +40,8 @@ pub struct Flow<F = MuI> {
     pub settling: Option<f64>,
     /// regularisation; 0 for the exact yield
     pub lambda: f64,
+    /// creep that rounds the edge of the flow, where the exact yield has none
+    pub creep: f64,
     /// solid volume under the interface in which the buoyancy of the viscous stress is left out
     pub cut: f64,
 }
@@ -102,6 +107,7 @@ impl<F: FrictionLaw> Flow<F> {
             phi_l: sheet.mixing_length.phi_max,
             settling: sheet.suspension.settling_velocity().map(|w_s| w_s / velocity),
             lambda: sheet.lambda * sheet.d / velocity,
+            creep: CREEP * sheet.d / velocity,
             cut: sheet.cut / sheet.d,
         }
     }

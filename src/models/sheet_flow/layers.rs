@@ -3,9 +3,8 @@
 use super::bed;
 use super::bed::State;
 use super::column::{Floor, Setting, interface_weights};
-use super::flow::Cell;
+use super::flow::{Cell, Flow};
 use super::newton::Column;
-use super::solve::Solved;
 use super::suspension::{Inflow, Level, Totals, march};
 use crate::closures::friction::FrictionLaw;
 use crate::closures::rearrangement::{Clock, Regime};
@@ -101,8 +100,7 @@ impl Layers {
 
     /// The moving layer; `None` if all of the bed is looser than at rest.
     #[must_use]
-    pub fn sheet<F: FrictionLaw>(&self, solved: &Solved<F>) -> Option<Sheet> {
-        let flow = &solved.column.flow;
+    pub fn sheet<F: FrictionLaw>(&self, flow: &Flow<F>) -> Option<Sheet> {
         let limit = flow.dilatancy.inertial_number(STILL * flow.dilatancy.phi_max);
         let n = self.cells.len();
         let last = (0..n).rev().find(|&c| self.cells[c].inertia > limit)?;

@@ -84,6 +84,9 @@ fn value(cell: &LocalCell, s: f64) -> Side<f64> {
     Side { phi, s, tau_p, tau_f, dz: cell.dz.value, dm: cell.dm.value }
 }
 
+/// Place of the solid volume of the bed among the unknowns of a cell.
+const BY_M: usize = 4;
+
 /// [`momentum`] with its derivatives by hand: dual numbers in all directions of a node cost three times as much.
 fn node<F: FrictionLaw>(
     flow: &Flow<F>,
@@ -121,7 +124,11 @@ fn node<F: FrictionLaw>(
         let mut mixture = sum(cell, &whole);
         mixture[3] += sign;
         let part = Factors { tau_p: sign, tau_f: sign * share, dz: by_dz, dm: by_dm, phi: dm * by_phi };
-        [mixture, sum(cell, &part)]
+        let mut grains = sum(cell, &part);
+        if sign < 0.0 {
+            grains[BY_M] += node.under_cut_by_m * (a.tau_f - b.tau_f) * dm / dz;
+        }
+        [mixture, grains]
     };
     let by_slip = dm * drag.slope[1];
     Node {
@@ -155,8 +162,16 @@ pub fn yield_slopes<F: FrictionLaw>(
         dz: wide(last.dz),
         dm: wide(last.dm),
     };
-    let globals = (v(state.sine, 5), v(state.m, 4));
-    at_yield(flow, side, v(state.w(c), LOCAL), globals, last_below_cut(flow, mesh, state.m))
+    let globals = (v(state.sine, 5), v(state.m, BY_M));
+    let (share, by_m) = last_below_cut(flow, mesh, state.m);
+    let slip = v(state.w(c), LOCAL);
+    let mut slopes = at_yield(flow, side, slip, globals, share);
+    if by_m != 0.0 {
+        // The momentum is linear in the share.
+        let [all, none] = [1.0, 0.0].map(|share| at_yield(flow, side, slip, globals, share).value);
+        slopes.slope[BY_M] += by_m * (all - none);
+    }
+    slopes
 }
 
 /// The discrete equations: residual and Jacobian.

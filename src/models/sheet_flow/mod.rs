@@ -8,6 +8,7 @@
 mod bed;
 pub mod case;
 mod column;
+mod continuation;
 mod equations;
 mod error;
 mod figures;
@@ -17,6 +18,7 @@ mod layers;
 mod linear;
 mod mesh;
 mod newton;
+mod no_layer;
 mod outcome;
 mod problem;
 mod profile;

@@ -42,8 +42,10 @@ pub struct NotConverged {
 pub enum Reason {
     /// the bed reached this level without holding its grains, in grain diameters
     RunsAway(f64),
-    /// all grains move, down to the bottom
-    AllMove,
+    /// all grains move, down to the bottom; above this share of the drive, where that is known
+    AllMove(Option<f64>),
+    /// no layer of grains moves below this multiple of the drive
+    NoLayer(f64),
     /// packed grains that are taken for moving ones: they carry this share of the stress where they come to rest
     Jammed(f64),
 }

@@ -45,6 +45,12 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     if !representable {
         return Err(NumericalError::NotRepresentable { name: "the flow in units of its grains".into() }.into());
     }
+    // Under a free surface, or where it is wanted, the stress on the bed is known beforehand.
+    let known = setting.tau_b.is_some() || setting.lid == Lid::FreeSurface;
+    let shields = stress(&flow, &setting);
+    if known && sheet.all_rest(shields) {
+        return sheet.without_layer(shields, None);
+    }
     let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
     let solved = match sheet.method {
         _ if stopped => Err(NotConverged::new(f64::INFINITY, 0)),
@@ -63,6 +69,9 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     if stopped {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
     }
+    if let Err(NotConverged { reason: Some(Reason::NoLayer(least)), .. }) = solved {
+        return sheet.without_layer(shields, Some(least * shields));
+    }
     let solved = solved.map_err(|failed| unsolved(sheet, &flow, &setting, failed))?;
     if !sheet.deepen_cut && solved.change_of_type * sheet.d > sheet.cut {
         return Err(SheetFlowError::ChangeOfType { depth_m: solved.change_of_type * sheet.d, cut_m: sheet.cut }.into());
@@ -74,9 +83,17 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     let profile = profile(sheet, &solved, &layers)?;
     let balances = balances(&solved, &layers);
     let mut outcome = outcome(Some(profile), solved.history.clone(), results, balances, validity)?;
-    outcome.regularisation.insert("lambda_1_s".into(), json!(sheet.lambda));
+    let lambda =
+        if sheet.lambda > 0.0 { sheet.lambda } else { solved.column.flow.lambda * sheet.velocity_scale() / sheet.d };
+    outcome.regularisation.insert("lambda_1_s".into(), json!(lambda));
     outcome.regularisation.insert("interface_cut_d".into(), json!(solved.column.flow.cut));
     Ok(outcome)
+}
+
+/// Stress on the interface: given, or of the fluid over it.
+fn stress<F: FrictionLaw>(flow: &Flow<F>, setting: &Setting) -> f64 {
+    let weight = || flow.fluid_weight(setting.sine.unwrap_or_default()) * (setting.height - setting.level);
+    setting.tau_b.unwrap_or_else(weight)
 }
 
 /// Why the method found nothing: no bed at rest can exist, or it failed.
@@ -86,23 +103,20 @@ fn unsolved<F: FrictionLaw>(
     setting: &Setting,
     failed: NotConverged,
 ) -> SolveError {
-    // Stress on the interface: given, or of the fluid over it.
-    let tau_b = setting
-        .tau_b
-        .unwrap_or_else(|| flow.fluid_weight(setting.sine.unwrap_or_default()) * (setting.height - setting.level));
-    let nothing_at_rest = SheetFlowError::NothingAtRest { bed_m: sheet.level, shields: tau_b };
+    let tau_b = stress(flow, setting);
+    let moves = |most| SheetFlowError::NothingAtRest { bed_m: sheet.level, shields: tau_b, most };
     // It alone needs this much weight of grains to be held.
     let held = tau_b < flow.friction.least() * flow.dilatancy.phi_max * setting.level;
     match failed.reason {
         Some(Reason::RunsAway(level)) => {
             return SheetFlowError::BedRunsAway { rest_m: sheet.level, reached_m: level * sheet.d }.into();
         }
-        Some(Reason::AllMove) => return nothing_at_rest.into(),
+        Some(Reason::AllMove(most)) => return moves(most).into(),
         Some(Reason::Jammed(carried)) => return SheetFlowError::Jammed { carried }.into(),
-        None => {}
+        Some(Reason::NoLayer(_)) | None => {}
     }
     if setting.tau_b.is_some() && !held {
-        return nothing_at_rest.into();
+        return moves(None).into();
     }
     // Grains at rest in a deep bed carry the slope of the whole mixture, at most mu_s P_p.
     let sine = setting.sine.or_else(|| {
@@ -117,7 +131,7 @@ fn unsolved<F: FrictionLaw>(
         }
     }
     if !held {
-        return nothing_at_rest.into();
+        return moves(None).into();
     }
     SolveError::not_converged(failed.residual, failed.iterations)
 }
@@ -127,7 +141,7 @@ fn refuse<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &Lay
     let (flow, state, d) = (&solved.column.flow, &solved.state, sheet.d);
     let bottom = solved.column.mesh.cells() - 1;
     if state.rest < 0.0 || (solved.column.floor == Floor::Bottom && state.r(bottom) >= flow.friction.least()) {
-        return Err(SheetFlowError::NothingAtRest { bed_m: layers.z[0] * d, shields: state.tau_b });
+        return Err(SheetFlowError::NothingAtRest { bed_m: layers.z[0] * d, shields: state.tau_b, most: None });
     }
     if layers.lid < -1e-9 * state.tau_b {
         return Err(SheetFlowError::LidPushes { stress_pa: layers.lid * sheet.stress_scale() });
@@ -179,6 +193,14 @@ fn results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layers: &La
     results.set(&q::U_MAX, fastest.0 * velocity);
     results.set(&q::U_MAX_LEVEL, (layers.z[0] + fastest.1) * d);
     results.set(&q::CHANGE_OF_TYPE, solved.change_of_type * d);
+    if solved.column.flow.lambda > sheet.lambda * d / velocity {
+        // The edge is where the exact yield ends.
+        results.set(&q::SHIELDS_LEAST, solved.edge.unwrap_or(state.tau_b));
+    }
+    match solved.cut_effect(layers.psi()) {
+        Some(effect) => results.set(&q::CUT_EFFECT, effect),
+        None => results.undefined(&q::CUT_EFFECT, "with another cut no solution was found from this one"),
+    }
     if let Some(exact) = &solved.exact {
         let exact = Layers::new(&solved.column.exact_yield(), exact).psi();
         results.set(&q::REGULARISATION_RATE, layers.psi() / exact - 1.0);
@@ -200,7 +222,7 @@ fn sheet_results<F: FrictionLaw>(sheet: &SheetFlow<F>, solved: &Solved<F>, layer
         &q::FREE_FALL_SHARE,
         &q::TURBULENT_SHARE,
     ];
-    let Some(moving) = layers.sheet(solved) else {
+    let Some(moving) = layers.sheet(flow) else {
         all.into_iter().for_each(|quantity| {
             results.undefined(quantity, "the regularisation loosens all of the bed by more than 0.1 %");
         });
@@ -293,7 +315,10 @@ fn validity<F: FrictionLaw>(sheet: &SheetFlow<F>, layers: &Layers) -> Vec<Validi
         found.extend(at(sheet.suspension.info(), range, phi, top));
     }
     for range in sheet.lid.info().ranges {
-        let reynolds = sheet.rho_f * 2.0 * layers.totals.discharge * sheet.velocity_scale() * sheet.d / sheet.eta;
+        let Lid::ColebrookWhite(law) = sheet.lid else { continue };
+        let reynolds =
+            sheet.rho_f * law.diameter.heights() * layers.totals.discharge * sheet.velocity_scale() * sheet.d
+                / sheet.eta;
         found.extend(at(sheet.lid.info(), range, reynolds, sheet.height / sheet.d));
     }
     if let Some(w_s) = sheet.suspension.settling_velocity() {

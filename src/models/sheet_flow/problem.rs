@@ -308,6 +308,7 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
         let (depth, k_s) = (flow.depth, of(&q::ROUGHNESS));
         let rough = of(&q::U_STAR).zip(k_s).map(|(u_star, k_s)| u_star * k_s * flow.rho_f / flow.eta);
         let mut found = vec![
+            flow.a_layer_moves(results),
             premises::SHEET.maybe(of(&q::SHIELDS)),
             premises::MANY_LAYERS.maybe(of(&q::SHEET_THICKNESS).map(|thickness| thickness / flow.d)),
             premises::SHALLOW_ROUGHNESS.maybe(k_s.map(|k_s| k_s / depth)),

@@ -1,4 +1,7 @@
 //! The profile of a sheet flow in SI: the bottom, the middles of the cells of the bed, the interface, the middles above it.
+//!
+//! At the interface the slip ends: above it the grains move with the fluid. The velocity of the fluid and the flux jump there, and the profile
+//! has both values, on two levels that differ by round-off alone.
 
 use super::layers::Layers;
 use super::solve::Solved;
@@ -38,7 +41,14 @@ pub(super) fn profile<F: FrictionLaw>(
     let column = |scale: f64, value: &dyn Fn(&Row) -> Option<f64>| -> Vec<Option<f64>> {
         rows.iter().map(|row| value(row).map(|x| x * scale)).collect()
     };
-    let mut profile = Profile::new(rows.iter().map(|row| row.z * d).collect())?;
+    let mut axis: Vec<f64> = rows.iter().map(|row| row.z * d).collect();
+    // Levels are ascending: the upper side of the interface is the next number.
+    for row in 1..axis.len() {
+        if axis[row] <= axis[row - 1] {
+            axis[row] = axis[row - 1].next_up();
+        }
+    }
+    let mut profile = Profile::new(axis)?;
     let table: [(&'static Quantity, Vec<Option<f64>>); 16] = [
         (&q::PHI, column(1.0, &|r| Some(r.phi))),
         (&q::U_FLUID, column(velocity, &|r| Some(r.u_fluid))),
@@ -74,6 +84,9 @@ fn rows<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Row> {
         let (u, w) = (0.5 * (top.0 + bottom.0), 0.5 * (top.1 + bottom.1));
         let [free, viscous, turbulent] = flow.grain().rates(cell.pressure, w);
         let mixture = u + w;
+        // Nothing shears in grains at rest under the exact yield: the fluid carries nothing by turbulence, and by viscosity what infinity times
+        // zero is, which nobody can say. What grains and the fluid packed between them carry is the whole.
+        let rests = flow.lambda == 0.0 && cell.inertia == 0.0;
         // To the middle of the cell, over which the velocity is linear.
         let half = 0.25 * cell.dm * (u + bottom.0);
         rows.push(Row {
@@ -83,9 +96,9 @@ fn rows<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Row> {
             u_particle: Some(u),
             u_mixture: mixture,
             flux: cell.phi * u,
-            tau_fluid: Some(cell.tau_f),
+            tau_fluid: (!rests).then_some(cell.tau_f),
             tau_reynolds: Some(layers.s[c] - cell.tau_f),
-            tau_particle: Some(cell.tau_p),
+            tau_particle: Some(if rests { cell.tau_p + layers.s[c] } else { cell.tau_p }),
             pressure: Some(cell.pressure),
             gamma: Some(cell.gamma.abs()),
             inertia: Some(cell.inertia),
@@ -108,6 +121,17 @@ fn rows<F: FrictionLaw>(solved: &Solved<F>, layers: &Layers) -> Vec<Row> {
         flux: phi * u,
         tau_particle: Some(0.0),
         pressure: Some(0.0),
+        length: layers.inflow.length,
+        cumulative,
+        ..Row::default()
+    });
+    // The same level from above.
+    rows.push(Row {
+        z: layers.z[0],
+        phi,
+        u_fluid: u + w,
+        u_mixture: u + w,
+        flux: phi * (u + w),
         length: layers.inflow.length,
         cumulative,
         ..Row::default()

@@ -3,6 +3,7 @@
 
 use super::bed::{STRIDE, State};
 use super::column::{Floor, Setting};
+use super::continuation::{Found, follow, too_thin};
 use super::flow::Flow;
 use super::iteration::StepControl;
 use super::mesh::Mesh;
@@ -13,7 +14,7 @@ use crate::models::sheet_flow::BedLevel;
 
 /// A coarse mesh and the first guess on it.
 #[derive(Clone, Copy)]
-struct CoarseGuess {
+pub(super) struct CoarseGuess {
     floor: Floor,
     cells: usize,
     /// share of the range of the friction at which the grains shear
@@ -33,7 +34,7 @@ impl CoarseGuess {
 }
 
 /// Tried in turn: on meshes of the moving grains, then on those of the whole bed, where the yield level finds itself.
-const GUESSES: [CoarseGuess; 10] = [
+pub(super) const GUESSES: [CoarseGuess; 10] = [
     CoarseGuess::new(Floor::Yield, 60, 0.8),
     CoarseGuess::new(Floor::Yield, 60, 0.9),
     CoarseGuess::new(Floor::Bottom, 80, 0.8),
@@ -56,11 +57,11 @@ const CREDIBLE: f64 = 0.4;
 const ROUGH: f64 = 1e-5;
 /// Smallest share of the stress that grains carry where they come to rest, in a solution that is one of the flow: there it is
 /// 0.94 and more, and in spurious ones, where the viscosity of packed grains carries the rest, below 0.01.
-const CARRIED: f64 = 0.5;
+pub const CARRIED: f64 = 0.5;
 /// A cut that is short by less than this share is long enough.
-const ROUNDING: f64 = 0.02;
+pub(super) const ROUNDING: f64 = 0.02;
 /// The cut lies this far below the change of type.
-const BEYOND: f64 = 1.2;
+pub const BEYOND: f64 = 1.2;
 /// Slip of the first guess in grains that creep, in units of the largest slip.
 const SEEPAGE: f64 = 1e-4;
 /// Regularisation, scaled, and step control of the iteration where no first guess of Newton's method leads anywhere.
@@ -85,10 +86,12 @@ pub struct Solved<F = MuI> {
     pub history: Vec<f64>,
     /// solid volume under the interface down to which the equations change type
     pub change_of_type: f64,
+    /// stress on the bed at which the exact yield ends, where the flow is beyond that
+    pub edge: Option<f64>,
 }
 
 /// A column with the exact yield, its solution, and the depth of the change of type.
-type Exact<F> = (Column<F>, State, f64);
+pub type Exact<F> = (Column<F>, State, f64);
 
 /// Solves the column on `cells` cells.
 ///
@@ -98,26 +101,39 @@ pub fn solve<F: FrictionLaw>(flow: Flow<F>, setting: Setting, cells: usize) -> R
     let mut history = Vec::new();
     let mut last = NotConverged::new(f64::INFINITY, 0);
     for guess in GUESSES.into_iter().map(Some).chain([None]) {
-        // Where everything seems to move, another guess may know better; the iteration does not.
-        if guess.is_none() && last.reason.is_some() {
-            break;
+        if guess.is_none() {
+            // Where everything seems to move, another guess may know better; other drives and the iteration do not.
+            if matches!(last.reason, Some(Reason::AllMove(_))) {
+                break;
+            }
+            match follow(flow, setting, cells, &mut history) {
+                Found::Flow(solved) => return Ok(*solved),
+                Found::NoLayer(least) => last.reason = Some(Reason::NoLayer(least)),
+                Found::AllMove(most) => last.reason = Some(Reason::AllMove(Some(most))),
+                Found::Nothing => {}
+            }
+            if last.reason.is_some() {
+                break;
+            }
         }
         let attempt = coarse(flow, setting, guess, cells, &mut history)
             .and_then(|from| refine(flow, setting, cells, &from, &mut history));
         match attempt {
             Ok((_, state, _)) if state.rest < 0.0 => {
-                last = NotConverged { reason: Some(Reason::AllMove), ..NotConverged::new(0.0, history.len()) };
+                last = NotConverged { reason: Some(Reason::AllMove(None)), ..NotConverged::new(0.0, history.len()) };
             }
             Ok((column, state, _)) if column.carried(&state) < CARRIED => {
                 let reason = last.reason.or(Some(Reason::Jammed(column.carried(&state))));
                 last = NotConverged { reason, ..NotConverged::new(0.0, history.len()) };
             }
+            // Less than a layer of grains is none; where one begins, following the flow says.
+            Ok((column, state, _)) if too_thin(&column, &state) => {}
             Ok((column, state, change_of_type)) if flow.lambda == 0.0 => {
-                return Ok(Solved { column, state, exact: None, history, change_of_type });
+                return Ok(Solved { column, state, exact: None, history, change_of_type, edge: None });
             }
             Ok((column, state, change_of_type)) => {
                 let (column, state, exact) = column.creep(&state, flow.lambda, &mut history)?;
-                return Ok(Solved { column, state, exact, history, change_of_type });
+                return Ok(Solved { column, state, exact, history, change_of_type, edge: None });
             }
             Err(failed) => {
                 let open = match last.reason {
@@ -139,7 +155,7 @@ pub fn solve<F: FrictionLaw>(flow: Flow<F>, setting: Setting, cells: usize) -> R
 
 /// The exact yield on a coarse mesh, at the given bed level and without the term that makes the equations change type: from
 /// the state of `guess`, or for `None` by some steps of the iteration, which is slow and goes where Newton does not.
-fn coarse<F: FrictionLaw>(
+pub(super) fn coarse<F: FrictionLaw>(
     flow: Flow<F>,
     setting: Setting,
     guess: Option<CoarseGuess>,
@@ -189,7 +205,7 @@ fn ease<F: FrictionLaw>(
 }
 
 /// From the coarse mesh to the wanted one, with the term, and to the wanted bed level.
-fn refine<F: FrictionLaw>(
+pub(super) fn refine<F: FrictionLaw>(
     flow: Flow<F>,
     setting: Setting,
     cells: usize,
@@ -200,8 +216,10 @@ fn refine<F: FrictionLaw>(
     // Some coarse solutions have jammed or loose layers that are no part of the flow: the balance of the layer tells.
     let estimate = mobile_volume(&coarse.flow, rough.tau_b, rough.sine);
     let credible = estimate > CREDIBLE * flow.dilatancy.phi_max * setting.level;
-    let all_move =
-        NotConverged { reason: credible.then_some(Reason::AllMove), ..NotConverged::new(f64::INFINITY, history.len()) };
+    let all_move = NotConverged {
+        reason: credible.then_some(Reason::AllMove(None)),
+        ..NotConverged::new(f64::INFINITY, history.len())
+    };
     let mobile = coarse.yield_volume(rough).ok_or(all_move)?;
     let rest = match setting.bed_level {
         BedLevel::InFlow => rough.m + rough.rest - mobile,
@@ -264,7 +282,7 @@ pub fn iterate<F: FrictionLaw>(
             ..NotConverged::new(0.0, history.len())
         });
     }
-    Ok(Solved { column, state, exact: None, history, change_of_type })
+    Ok(Solved { column, state, exact: None, history, change_of_type, edge: None })
 }
 
 impl<F: FrictionLaw> Column<F> {
@@ -289,7 +307,7 @@ impl<F: FrictionLaw> Column<F> {
 
     /// Share of the stress that the grains carry in the last of the cells of the moving grains; of the whole bed, in the one with the
     /// most mobilised friction.
-    fn carried(&self, state: &State) -> f64 {
+    pub fn carried(&self, state: &State) -> f64 {
         let most = (0..self.mesh.cells()).max_by(|a, b| state.r(*a).total_cmp(&state.r(*b))).unwrap_or(0);
         let last = if self.floor == Floor::Yield { self.mesh.cells() - 1 } else { most };
         let pressure = super::linear::local_cell(&self.flow, &self.mesh, state, last).pressure.value;
@@ -345,7 +363,7 @@ impl<F: FrictionLaw> Column<F> {
 
     /// From the exact yield on the mesh of the moving grains to the regularisation `lambda` on that of the whole bed, at once
     /// or by smaller ones; the last is the exact yield there, if it was found.
-    fn creep(
+    pub fn creep(
         &self,
         exact: &State,
         lambda: f64,

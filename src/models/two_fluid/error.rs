@@ -1,5 +1,6 @@
 //! What can be wrong with a flow of two fluids: its case, and its solution.
 
+use super::steady::WEAK as NEAR_REST;
 use crate::case::CaseFault;
 use crate::result::{Class, MethodError, codes};
 
@@ -40,6 +41,46 @@ impl CaseFault for TwoFluidFault {
 /// Why a flow of two fluids was not found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum TwoFluidError {
+    /// A slope on which no bed of the grains rests, however thick.
+    #[error(
+        "the whole bed slides: no bed of these grains rests on a slope of {slope_deg:.2} deg, and the thicker it is, the more it would carry; with a friction of {friction:.4} at rest they rest on up to {steepest_deg:.2} deg where the bed is deep, and on up to {here_deg:.2} deg at this thickness under this depth"
+    )]
+    NothingAtRest {
+        /// the slope \[deg]
+        slope_deg: f64,
+        /// the slope on which a deep bed is about to slide \[deg]
+        steepest_deg: f64,
+        /// that on which one of this thickness is, under this depth \[deg]
+        here_deg: f64,
+        /// friction of grains at rest
+        friction: f64,
+    },
+    /// Equations that are solved but for a force that is left.
+    #[error(
+        "no steady flow was found at a Shields number of {shields:.4}: the velocities no longer change, but in a cell the stresses miss balance by {stress_pa:.3e} Pa, more than the {allowed_pa:.3e} Pa that round-off may leave, after {iterations} iterations"
+    )]
+    Unbalanced {
+        /// largest stress that a cell misses \[Pa]
+        stress_pa: f64,
+        /// largest one that it may \[Pa]
+        allowed_pa: f64,
+        /// iterations made, of all ways
+        iterations: usize,
+        /// nominal Shields number
+        shields: f64,
+    },
+    /// A march in pseudo-time that does not come to rest.
+    #[error(
+        "no steady flow was found at a Shields number of {shields:.4}: followed in pseudo-time, the flow does not settle; its last step was {step_s:.3e} s after {iterations} iterations"
+    )]
+    DoesNotSettle {
+        /// last step of pseudo-time \[s]
+        step_s: f64,
+        /// iterations made, of all ways
+        iterations: usize,
+        /// nominal Shields number
+        shields: f64,
+    },
     /// A two-fluid flow that no way of the method leads to.
     #[error(
         "no steady flow was found at a Shields number of {shields:.4}: the smallest residual is {residual:.3e} after {iterations} iterations"
@@ -67,6 +108,9 @@ pub enum TwoFluidError {
 }
 
 codes!(TwoFluidError {
+    Self::NothingAtRest { .. } => "nothing-at-rest",
+    Self::Unbalanced { .. } => "forces-left",
+    Self::DoesNotSettle { .. } => "does-not-settle",
     Self::NoSteadyFlow { .. } => "no-steady-flow",
     Self::StuckInTime { .. } => "stuck-in-time",
 });
@@ -77,13 +121,22 @@ impl MethodError for TwoFluidError {
     }
 
     fn class(&self) -> Class {
-        Class::NotConverged
+        match self {
+            Self::NothingAtRest { .. } => Class::Unphysical,
+            _ => Class::NotConverged,
+        }
     }
 
     fn hint(&self) -> String {
         match self {
-            Self::NoSteadyFlow { .. } => {
+            Self::NothingAtRest { .. } => "lower the slope, or take grains with more friction (grains.friction)",
+            Self::Unbalanced { .. } => "fewer or coarser cells (grid.cells, grid.fine), or a larger regularisation.shear_rate",
+            // Where flows are weak they are unstable and burst (docs/kinetic.md).
+            Self::NoSteadyFlow { shields, .. } | Self::DoesNotSettle { shields, .. } if *shields < NEAR_REST[1] => {
                 "follow it in time (state = \"transient\"): near the threshold of motion the flow may have no steady state"
+            }
+            Self::NoSteadyFlow { .. } | Self::DoesNotSettle { .. } => {
+                "other cells (grid.cells), or follow it in time (state = \"transient\")"
             }
             Self::StuckInTime { .. } => {
                 "the flow until then is kept; take more cells (grid.cells) or a larger solver.tolerance"

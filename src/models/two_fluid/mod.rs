@@ -18,6 +18,7 @@ mod newton;
 mod outcome;
 mod problem;
 mod profile;
+mod rest;
 mod stability;
 mod start;
 mod state;

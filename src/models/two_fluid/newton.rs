@@ -18,6 +18,29 @@ pub struct NotConverged {
     pub residual: f64,
     /// iterations made
     pub iterations: usize,
+    /// what was left to do at the end
+    pub left: Left,
+}
+
+/// What a method that has not converged was left with.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Left {
+    /// the residual of Newton's method
+    Residual,
+    /// no residual, but forces that do not balance: the largest one of a cell, in units of the weight of a layer of grains
+    Force(f64),
+    /// a march in pseudo-time that did not slow down: the step that it ended with, in units of the time in which grains fall
+    March(f64),
+}
+
+impl NotConverged {
+    /// The one of two failures that came closer to a solution: an end of Newton's method before that of a march, then the smaller
+    /// residual.
+    #[must_use]
+    pub fn closer(best: Option<Self>, failed: Self) -> Self {
+        let rank = |x: &Self| (matches!(x.left, Left::March(_)), x.residual);
+        best.filter(|best| rank(best) <= rank(&failed)).unwrap_or(failed)
+    }
 }
 
 /// When the iteration ends.
@@ -80,15 +103,16 @@ impl Column {
         // Inertia over a short time leaves a round-off of its own.
         let highest = self.widths.iter().copied().fold(0.0, f64::max);
         let allowed = control.force.max(ROUND_OFF * memory.rate * self.laws.ratio * velocity * highest);
+        let mut left = Left::Residual;
         for iteration in 0..control.max_iterations {
             self.linearise(state, memory, &mobilised, linear);
             let norm = linear.norm(state);
             if !norm.is_finite() {
-                return Err(NotConverged { residual: best, iterations: iteration });
+                return Err(NotConverged { residual: best, iterations: iteration, left: Left::Residual });
             }
             best = best.min(norm);
             let Ok(step) = linear.step(state) else {
-                return Err(NotConverged { residual: best, iterations: iteration });
+                return Err(NotConverged { residual: best, iterations: iteration, left: Left::Residual });
             };
             let mut largest: f64 = 0.0;
             for (x, step) in state.iter_mut().zip(step.as_chunks::<SIZE>().0) {
@@ -111,11 +135,16 @@ impl Column {
                 *r = r.after(*from, to - *from, rate);
                 *from = to;
             }
-            let balanced = || {
+            left = Left::Residual;
+            if largest <= control.tolerance && !control.force.is_infinite() {
                 let missed = self.missed(state, memory, &mobilised);
-                missed.iter().flatten().all(|force| force.abs() <= allowed)
-            };
-            if largest <= control.tolerance && (control.force.is_infinite() || balanced()) {
+                let force = missed.iter().flatten().fold(0.0, |most: f64, force| most.max(force.abs()));
+                // A force that is no number does not balance either.
+                if !(force <= allowed && missed.iter().flatten().all(|force| force.is_finite())) {
+                    left = Left::Force(force);
+                }
+            }
+            if largest <= control.tolerance && left == Left::Residual {
                 // What a steady flow reports is the residual that it ends with.
                 let last = if memory.rate > 0.0 {
                     norm
@@ -127,6 +156,6 @@ impl Column {
                 return Ok((iteration + 1, last));
             }
         }
-        Err(NotConverged { residual: best, iterations: control.max_iterations })
+        Err(NotConverged { residual: best, iterations: control.max_iterations, left })
     }
 }

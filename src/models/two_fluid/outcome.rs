@@ -6,7 +6,7 @@ use super::face::Mobilised;
 use super::in_time;
 use super::laws::Laws;
 use super::levels::{Levels, NONE};
-use super::newton::NotConverged;
+use super::newton::{Left, NotConverged};
 use super::profile::profile;
 use super::state::Unknowns;
 use super::steady;
@@ -32,10 +32,20 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     if flow.state == State::Transient {
         return in_time::run(flow, cells, watch);
     }
+    // A bed that slides as a whole has no steady flow: the deeper it is, the more it carries.
+    if flow.thickness_at_rest().is_none() {
+        return Err(TwoFluidError::NothingAtRest {
+            slope_deg: flow.beta.to_degrees(),
+            steepest_deg: flow.steepest(f64::INFINITY).to_degrees(),
+            here_deg: flow.steepest(flow.thickness).to_degrees(),
+            friction: flow.friction_at_rest(),
+        }
+        .into());
+    }
     let column = column(flow, cells)?;
     let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
     let solved = if stopped {
-        Err(NotConverged { residual: f64::INFINITY, iterations: 0 })
+        Err(NotConverged { residual: f64::INFINITY, iterations: 0, left: Left::Residual })
     } else {
         steady::solve(&column, flow.phi, flow.shields(), |fraction| {
             stopped |= watch.see(&Snapshot { stage: "steady flow", fraction, quantity: None }).is_break();
@@ -45,11 +55,7 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     if stopped {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
     }
-    let solved = solved.map_err(|NotConverged { residual, iterations }| TwoFluidError::NoSteadyFlow {
-        residual,
-        iterations,
-        shields: flow.shields(),
-    })?;
+    let solved = solved.map_err(|failed| no_steady_flow(flow, failed))?;
     let mut outcome = report(flow, &column, (&solved.state, &solved.mobilised), solved.history)?;
     outcome.results.set(&q::NEWTON_ITERATIONS, solved.iterations as f64);
     let unit = flow.d / flow.velocity_scale();
@@ -61,6 +67,24 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
         None => outcome.results.undefined(&q::GROWTH_RATE, "no eigenvalue was found"),
     }
     Ok(outcome)
+}
+
+/// Why there is no steady flow, as far as the method knows.
+fn no_steady_flow(flow: &TwoFluid, NotConverged { residual, iterations, left }: NotConverged) -> TwoFluidError {
+    let shields = flow.shields();
+    match left {
+        Left::Residual => TwoFluidError::NoSteadyFlow { residual, iterations, shields },
+        Left::Force(force) => TwoFluidError::Unbalanced {
+            stress_pa: force * flow.stress_scale(),
+            allowed_pa: steady::BALANCED * flow.stress_scale(),
+            iterations,
+            shields,
+        },
+        Left::March(step) => {
+            let fall = (flow.rho_p / flow.rho_f).sqrt() * flow.d / flow.velocity_scale();
+            TwoFluidError::DoesNotSettle { step_s: step * fall, iterations, shields }
+        }
+    }
 }
 
 /// The column of the flow, in units of its grains.

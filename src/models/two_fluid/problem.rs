@@ -265,7 +265,8 @@ impl Solve for OnMesh<TwoFluid> {
         let stokes = |heat: f64| flow.rho_p * flow.d * heat.sqrt() / (9.0 * flow.eta);
         let kinetic = !matches!(flow.granular, Granular::Inertial(_));
         let driven = flow.beta > 0.0;
-        let mu_s = of(&q::STATIC_FRICTION).unwrap_or(BULK_FRICTION);
+        // In a thin bed the water over it pulls at the bottom, too.
+        let on_the_bottom = flow.thickness_at_rest().map(|_| flow.pull_on_the_bottom());
         let found = [
             premises::COLLISIONS.maybe(of(&q::TEMPERATURE_MAX).map(stokes).filter(|_| kinetic)),
             premises::KINETIC_SHIELDS.maybe(scene.shields_drive().filter(|_| kinetic && driven)),
@@ -275,7 +276,8 @@ impl Solve for OnMesh<TwoFluid> {
             premises::SUBMERGED.maybe(Some(flow.depth / flow.d).filter(|_| driven)),
             premises::no_suspension(scene).filter(|_| flow.dispersion == Dispersion::None && driven),
             premises::PACKED_BED.maybe(Some(flow.phi)),
-            premises::rests(scene, mu_s, flow.phi).filter(|_| driven),
+            premises::rests(scene, flow.friction_at_rest(), flow.phi).filter(|_| driven),
+            premises::RESTS_ON_ITS_BOTTOM.maybe(on_the_bottom.filter(|_| driven)),
         ];
         found.into_iter().flatten().collect()
     }

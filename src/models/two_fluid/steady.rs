@@ -2,7 +2,7 @@
 //! solution to the wanted column. The equations are those of the transient with a vanishing rate.
 
 use super::face::Mobilised;
-use super::newton::{NotConverged, StepControl};
+use super::newton::{Left, NotConverged, StepControl};
 use super::start::Start;
 use super::state::{HEAT, LOGIT, Unknowns};
 use super::system::{Column, Linear, Memory, carried};
@@ -13,7 +13,7 @@ const GUESSES: [(usize, f64); 4] = [(80, 1.0), (120, 1.0), (80, 1.6), (120, 0.6)
 const STRONGER: [f64; 3] = [1.5, 2.5, 4.0];
 /// Shields numbers below which a bed is tried at rest first, and below which a stronger flow is tried before the wanted one:
 /// near the threshold flows are unstable, and marches do not settle.
-const WEAK: [f64; 2] = [0.05, 0.35];
+pub const WEAK: [f64; 2] = [0.05, 0.35];
 /// First, smallest and largest step of pseudo-time, in the time in which grains fall.
 const STEPS: [f64; 3] = [0.06, 1e-6, 2e2];
 /// Most iterations of one march.
@@ -22,7 +22,9 @@ const MAX_ITERATIONS_OF_MARCH: usize = 1300;
 const MAX_ITERATIONS_IN_ALL: usize = 4000;
 /// Step control of a step of the march, of the last solution, and of its refinement.
 const ROUGH: StepControl = StepControl { tolerance: 1e-2, force: f64::INFINITY, max_iterations: 8 };
-const FINE: StepControl = StepControl { tolerance: 1e-8, force: 1e-8, max_iterations: 40 };
+const FINE: StepControl = StepControl { tolerance: 1e-8, force: BALANCED, max_iterations: 40 };
+/// Force that a cell of a steady flow may miss.
+pub const BALANCED: f64 = 1e-8;
 /// First and smallest step of the logarithm of the drive.
 const WALK: (f64, f64) = (0.05, 1e-3);
 
@@ -71,7 +73,9 @@ pub fn march(
 ) -> Result<Vec<Unknowns>, NotConverged> {
     let mut linear = Linear::new(column.cells());
     let [mut dt, least, most] = STEPS.map(|step| step * column.laws.fall());
-    let (start, mut best) = (*iterations, f64::INFINITY);
+    let start = *iterations;
+    // Until Newton's method has tried the steady equations, the march is what ends.
+    let mut best: Option<NotConverged> = None;
     while *iterations - start < MAX_ITERATIONS_OF_MARCH && dt > least && !stop(share(dt / column.laws.fall())) {
         let mut next = state.clone();
         match column.newton(&mut next, &euler(column, &state, dt), &mut linear, ROUGH) {
@@ -98,13 +102,18 @@ pub fn march(
                 }
                 Err(failed) => {
                     *iterations += failed.iterations;
-                    best = best.min(failed.residual);
+                    best = Some(NotConverged::closer(best, failed));
                     dt *= 0.1;
                 }
             }
         }
     }
-    Err(NotConverged { residual: best, iterations: *iterations })
+    let march = NotConverged {
+        residual: history.last().copied().unwrap_or(f64::INFINITY),
+        iterations: 0,
+        left: Left::March(dt / column.laws.fall()),
+    };
+    Err(NotConverged { iterations: *iterations, ..best.unwrap_or(march) })
 }
 
 /// The steady flow near `state`.
@@ -130,7 +139,7 @@ pub fn solve(
     mut stop: impl FnMut(f64) -> bool,
 ) -> Result<Steady, NotConverged> {
     let (mut iterations, mut history) = (0, Vec::new());
-    let mut best = f64::INFINITY;
+    let mut best: Option<NotConverged> = None;
     for (cells, start, factor) in ways(shields) {
         if stop(0.0) || iterations > MAX_ITERATIONS_IN_ALL {
             break;
@@ -147,10 +156,11 @@ pub fn solve(
                 let (state, made) = settle(column, &mut state, &mut linear, &mut history)?;
                 return Ok(Steady { state, mobilised: linear.mobilised, history, iterations: iterations + made });
             }
-            Err(failed) => best = best.min(failed.residual),
+            Err(failed) => best = Some(NotConverged::closer(best, failed)),
         }
     }
-    Err(NotConverged { residual: best, iterations })
+    let untried = NotConverged { residual: f64::INFINITY, iterations, left: Left::Residual };
+    Err(NotConverged { iterations, ..best.unwrap_or(untried) })
 }
 
 /// Where to start from, in turn: cells of the march, its first state, and the drive over the wanted one.

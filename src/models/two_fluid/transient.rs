@@ -115,7 +115,7 @@ impl March {
                     self.dt = dt * factor.min(0.8);
                     error
                 }
-                Err(NotConverged { residual, iterations }) => {
+                Err(NotConverged { residual, iterations, .. }) => {
                     self.iterations += iterations;
                     self.dt = dt * AFTER_FAILURE;
                     residual
