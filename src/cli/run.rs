@@ -336,6 +336,7 @@ fn at_round_off(balances: &[Balance]) -> bool {
 /// Numbers of the closing lines, a line each, named by the first.
 const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::SHIELDS, &quantity::U_STAR, &quantity::SHIELDS_BED],
+    &[&quantity::RATE_AMPLITUDE, &quantity::RATE_FORWARD, &quantity::RATE_BACKWARD],
     &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
     &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE, &quantity::UNYIELDED_SHARE_ERROR],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],

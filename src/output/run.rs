@@ -177,6 +177,7 @@ fn write_body(
     folder.write(WORDS, |to| Ok(serde_json::to_writer(to, &words)?))?;
     let drawn = Drawn {
         profile: outcome.and_then(|o| o.profile.as_ref()),
+        series: outcome.and_then(|o| o.series.as_ref()),
         field: outcome.and_then(|o| o.field.as_ref()),
         grains: outcome.and_then(|o| o.grains.as_ref()),
         animation: outcome.and_then(|o| o.animation.as_ref()).filter(|animation| animation.is_sound()),
@@ -224,6 +225,7 @@ struct Words {
 /// What the report draws.
 struct Drawn<'a> {
     profile: Option<&'a Profile>,
+    series: Option<&'a Series>,
     field: Option<&'a Field>,
     grains: Option<&'a SideView>,
     animation: Option<&'a Animation>,
@@ -240,6 +242,7 @@ fn draw(
 ) -> Result<Vec<PathBuf>, OutputError> {
     let mut figures = drawn.profile.map(|p| plot::profile_figures(p, summary)).unwrap_or_default();
     figures.extend(words.figures.iter().cloned());
+    figures.extend(drawn.series.map(|series| plot::series_figures(series, &summary.case)).unwrap_or_default());
     let drawing = drawing(drawn, summary);
     let page = plot::report_html(&Page {
         summary,
@@ -370,7 +373,7 @@ pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
     }
     let named = |name: &'static str| move |error: TableError| wrong(format!("{name}: {error}"));
     let file = |name: &str| fs::File::open(folder.join(name)).ok().map(BufReader::new);
-    file("series.csv").map(Series::read_csv).transpose().map_err(named("series.csv"))?;
+    let series = file("series.csv").map(Series::read_csv).transpose().map_err(named("series.csv"))?;
     let field = read_field(folder)?;
     let grains = file("grains.csv").map(SideView::read).transpose().map_err(named("grains.csv"))?.flatten();
     let words = match file(WORDS) {
@@ -381,6 +384,7 @@ pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
     let animation = read_animation(folder);
     let drawn = Drawn {
         profile: profile.as_ref(),
+        series: series.as_ref(),
         field: field.as_ref(),
         grains: grains.as_ref(),
         animation: animation.as_ref(),

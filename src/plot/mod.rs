@@ -16,6 +16,7 @@ mod report;
 #[cfg(test)]
 mod samples;
 mod section;
+mod series;
 mod several;
 mod shell;
 mod stated;
@@ -33,6 +34,7 @@ pub use map::{Corner, Map, MapPanel, Place, Trail, map_png};
 pub use png::png;
 pub use report::{Page, report_html};
 pub use section::{section_map, section_svg};
+pub use series::series_figures;
 pub use several::{Trace, shared_figures};
 pub use svg::svg;
 

@@ -71,6 +71,18 @@ catalogue! {
     DRAG_FACTOR = "drag_loss_factor", "loss by drag", "J d/(ρ_p T^(3/2))", "1", "work of the drag on the fluctuations over ρ_p T^(3/2)/d";
     DRAG_FACTOR_THEORY = "drag_loss_factor_theory", "loss by quadratic drag", "J d/(ρ_p T^(3/2))", "1", "of a drag that is quadratic in the slip, at the state of the grains";
     DRAG_FACTOR_CLASSICAL = "drag_loss_factor_classical", "loss by linear drag", "J d/(ρ_p T^(3/2))", "1", "of a drag that is linear in the slip, at the state of the grains";
+    PHI_0 = "phi_0deg", "solid fraction at the phase 0°", "φ", "1", "at 0° of the last whole period of the waves, where the waves turn forward";
+    U_FLUID_0 = "u_fluid_0deg_m_s", "fluid velocity at the phase 0°", "u_f", "m/s", "at 0° of the last whole period of the waves";
+    U_PARTICLE_0 = "u_particle_0deg_m_s", "grain velocity at the phase 0°", "u_p", "m/s", "at 0° of the last whole period of the waves";
+    PHI_90 = "phi_90deg", "solid fraction at the phase 90°", "φ", "1", "at 90° of the last whole period of the waves, of the fastest flow forward";
+    U_FLUID_90 = "u_fluid_90deg_m_s", "fluid velocity at the phase 90°", "u_f", "m/s", "at 90° of the last whole period of the waves";
+    U_PARTICLE_90 = "u_particle_90deg_m_s", "grain velocity at the phase 90°", "u_p", "m/s", "at 90° of the last whole period of the waves";
+    PHI_180 = "phi_180deg", "solid fraction at the phase 180°", "φ", "1", "at 180° of the last whole period of the waves, where the waves turn backward";
+    U_FLUID_180 = "u_fluid_180deg_m_s", "fluid velocity at the phase 180°", "u_f", "m/s", "at 180° of the last whole period of the waves";
+    U_PARTICLE_180 = "u_particle_180deg_m_s", "grain velocity at the phase 180°", "u_p", "m/s", "at 180° of the last whole period of the waves";
+    PHI_270 = "phi_270deg", "solid fraction at the phase 270°", "φ", "1", "at 270° of the last whole period of the waves, of the fastest flow backward";
+    U_FLUID_270 = "u_fluid_270deg_m_s", "fluid velocity at the phase 270°", "u_f", "m/s", "at 270° of the last whole period of the waves";
+    U_PARTICLE_270 = "u_particle_270deg_m_s", "grain velocity at the phase 270°", "u_p", "m/s", "at 270° of the last whole period of the waves";
     PRODUCTION_STDERR = "fluctuation_production_W_m3_stderr", "standard error of the production", "σ(τ_p du_p/dz)", "W/m³", "by block averaging";
     FLUCTUATION_FLUX_STDERR = "fluctuation_flux_W_m2_stderr", "standard error of the flux of fluctuation energy", "σ(q)", "W/m²", "by block averaging";
     CONTACT_LOSS_STDERR = "fluctuation_contact_loss_W_m3_stderr", "standard error of the loss by contacts", "σ(Γ)", "W/m³", "by block averaging";
@@ -89,6 +101,14 @@ catalogue! {
     TAU_PARTICLE_STDERR = "tau_particle_Pa_stderr", "standard error of the intergranular shear stress", "σ(τ_p)", "Pa", "by block averaging";
     P_PARTICLE_STDERR = "p_particle_Pa_stderr", "standard error of the particle pressure", "σ(P_p)", "Pa", "by block averaging";
 }
+
+/// Solid fraction, velocity of the fluid and of the grains at the four phases of waves that are kept.
+pub static PHASES: [[&Quantity; 3]; 4] = [
+    [&PHI_0, &U_FLUID_0, &U_PARTICLE_0],
+    [&PHI_90, &U_FLUID_90, &U_PARTICLE_90],
+    [&PHI_180, &U_FLUID_180, &U_PARTICLE_180],
+    [&PHI_270, &U_FLUID_270, &U_PARTICLE_270],
+];
 
 catalogue! {
     /// Columns of `series.csv`.
@@ -242,6 +262,9 @@ catalogue! {
     GROWTH_FREQUENCY = "growth_frequency_1_s", "angular frequency of that disturbance", "ω", "1/s", "0 where it does not oscillate";
     RATE_MEAN = "transport_rate_mean_m2_s", "mean transport rate", "<q_p>", "m²/s", "over the second half of the simulated time";
     RATE_MEAN_SCALED = "transport_rate_mean_dimensionless", "mean dimensionless transport rate", "<Q*>", "1", "over the second half of the simulated time";
+    RATE_AMPLITUDE = "transport_rate_amplitude_m2_s", "amplitude of the transport rate", "q̂_p", "m²/s", "half of largest minus smallest, over the whole periods that are averaged";
+    RATE_FORWARD = "transport_rate_forward_m2_s", "transport rate forward", "q_p+", "m²/s", "mean over the halves of the periods in which the clear fluid goes forward";
+    RATE_BACKWARD = "transport_rate_backward_m2_s", "transport rate backward", "q_p-", "m²/s", "mean over the halves of the periods in which the clear fluid goes backward";
     RATE_SWING = "transport_rate_swing", "swing of the transport rate", "Δq_p/<q_p>", "1", "largest minus smallest of the samples in the second half of the simulated time, over their mean";
     SOLIDS_DRIFT = "solids_drift", "drift of the solid volume", "max |ΔV|/V", "1", "largest deviation of the solid volume from that at rest at any step, relative to it";
     STEPS = "time_steps", "time steps", "N", "1", "steps kept";

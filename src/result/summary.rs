@@ -65,7 +65,7 @@ impl Results {
     /// Reports `value` \[SI]; a value that is not finite becomes `null` with the reason "not finite".
     pub fn set(&mut self, quantity: &'static Quantity, value: f64) {
         if value.is_finite() {
-            self.0.push((quantity.name.into(), Reported { value: Some(value), stderr: None, reason: None }));
+            self.put(quantity, Reported { value: Some(value), stderr: None, reason: None });
         } else {
             self.undefined(quantity, OVERFLOWED);
         }
@@ -74,7 +74,8 @@ impl Results {
     /// Reports a mean \[SI] with its standard error, or why it has none.
     pub fn set_mean(&mut self, quantity: &'static Quantity, estimate: Estimate) {
         self.set(quantity, estimate.mean);
-        let Some((_, reported)) = self.0.last_mut().filter(|(_, reported)| reported.value.is_some()) else { return };
+        let of_it = |(name, reported): &&mut (String, Reported)| name == quantity.name && reported.value.is_some();
+        let Some((_, reported)) = self.0.iter_mut().find(of_it) else { return };
         match estimate.stderr {
             Ok(error) if error.is_finite() => reported.stderr = Some(error),
             Ok(_) => reported.reason = Some(OVERFLOWED.into()),
@@ -84,7 +85,15 @@ impl Results {
 
     /// Reports that a quantity has no value here, and why.
     pub fn undefined(&mut self, quantity: &'static Quantity, reason: &str) {
-        self.0.push((quantity.name.into(), Reported { value: None, stderr: None, reason: Some(reason.into()) }));
+        self.put(quantity, Reported { value: None, stderr: None, reason: Some(reason.into()) });
+    }
+
+    /// What is reported again stands where it stood.
+    fn put(&mut self, quantity: &'static Quantity, reported: Reported) {
+        match self.0.iter_mut().find(|(name, _)| name == quantity.name) {
+            Some((_, before)) => *before = reported,
+            None => self.0.push((quantity.name.into(), reported)),
+        }
     }
 
     /// The SI value of a result, if it was reported and is defined.

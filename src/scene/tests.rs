@@ -68,11 +68,11 @@ fn a_drive_whose_stress_is_an_outcome_has_no_shields_number() {
 fn scenes_differ_in_the_inputs_that_differ() {
     let (first, mut second) = (beads(), beads());
     second.flow.depth = Some(72e-3 * (1.0 + 1e-15));
-    let record = |scene: BedScene| Scene::Bed(scene).record();
-    assert_eq!(record(first).differences(&record(second)), []);
+    let record = |scene: &BedScene| Scene::Bed(scene.clone()).record();
+    assert_eq!(record(&first).differences(&record(&second)), []);
     second.bed.thickness = Some(87.6e-3);
     second.grains.friction = Some(0.4);
-    let found = record(first).differences(&record(second));
+    let found = record(&first).differences(&record(&second));
     let expected = [("bed.thickness", json!(75e-3), json!(87.6e-3)), ("grains.friction", json!(null), json!(0.4))];
     assert_eq!(found.len(), expected.len());
     for (difference, (path, first, second)) in found.iter().zip(expected) {
@@ -80,8 +80,8 @@ fn scenes_differ_in_the_inputs_that_differ() {
         assert_eq!(difference.first.clone().unwrap_or_default(), first);
         assert_eq!(difference.second.clone().unwrap_or_default(), second);
     }
-    assert_eq!(record(first).solid_volume_m, Some(0.6 * 75e-3));
-    assert_eq!(record(first).kind, "bed");
+    assert_eq!(record(&first).solid_volume_m, Some(0.6 * 75e-3));
+    assert_eq!(record(&first).kind, "bed");
 }
 
 #[test]

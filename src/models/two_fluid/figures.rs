@@ -3,15 +3,50 @@
 
 use crate::closures::kinetic::{Inertial, PHI_C};
 use crate::result::quantity::{self as q, Quantity};
-use crate::result::{Axis, Curve, Dash, Figure, Outcome, Panel};
+use crate::result::{Axis, Curve, Dash, Figure, Outcome, Panel, Profile};
 
 /// Inertial numbers that are drawn.
 const DRAWN: std::ops::Range<f64> = 1e-4..1e2;
 /// Solid fraction above which grains are drawn.
 const ENOUGH: f64 = 1e-3;
 
-/// The figures of the run `name`; none without kinetic theory or where hardly a grain moves.
+/// The profiles at the phases of waves, if there are some.
+fn phases(name: &str, profile: &Profile) -> Option<Figure> {
+    profile.get(&q::PHI_270)?;
+    const NAMES: [&str; 4] = ["0°", "90°", "180°", "270°"];
+    const DASHES: [Dash; 4] = [Dash::Solid, Dash::Dashed, Dash::DashDotted, Dash::Dotted];
+    let curve = |phase: usize, quantity: &Quantity| {
+        let values = profile.get(quantity)?;
+        let points = profile.axis().into_iter().zip(values).map(|(z, value)| Some(((*value)?, z))).collect();
+        // One legend, in the first panel.
+        let name = if quantity.unit == "1" { NAMES[phase].into() } else { String::new() };
+        let line = Some(DASHES[phase]);
+        Some(Curve { name, points, colour: phase + 1, line, ..Curve::default() })
+    };
+    let panel =
+        |k: usize, axis: Axis| Panel { x: axis, curves: (0..4).filter_map(|i| curve(i, q::PHASES[i][k])).collect() };
+    Some(Figure {
+        stem: "phases".into(),
+        caption: format!("{name}: profiles at four phases of the waves; the clear fluid is fastest at 90° and 270°."),
+        y: Axis::elevation("m"),
+        panels: vec![
+            panel(0, Axis::linear("solid fraction φ", "")),
+            panel(1, Axis::linear("fluid velocity u_f", "m/s")),
+            panel(2, Axis::linear("grain velocity u_p", "m/s")),
+        ],
+        levels: Vec::new(),
+        tint_below: None,
+    })
+}
+
+/// The figures of the run `name`: the phases of waves, and what needs kinetic theory.
 pub(super) fn figures(name: &str, outcome: &Outcome) -> Vec<Figure> {
+    let phases = outcome.profile.as_ref().and_then(|profile| phases(name, profile));
+    phases.into_iter().chain(inertial(name, outcome)).collect()
+}
+
+/// Those over the inertial number; none without kinetic theory or where hardly a grain moves.
+fn inertial(name: &str, outcome: &Outcome) -> Vec<Figure> {
     let Some(profile) = outcome.profile.as_ref().filter(|profile| profile.get(&q::PRODUCTION).is_some()) else {
         return Vec::new();
     };

@@ -6,11 +6,12 @@ use super::levels::Levels;
 use super::outcome::{column, report};
 use super::problem::TimeControl;
 use super::transient::{March, Stuck};
+use super::waves::Track;
 use crate::case::tables::Moment;
 use crate::models::exact::balance;
 use crate::models::two_fluid::TwoFluid;
 use crate::models::two_fluid::TwoFluidError;
-use crate::result::{Failure, Outcome, Series, Snapshot, Status, Watch, quantity as q};
+use crate::result::{Failure, Outcome, Series, Snapshot, Status, TableError, Watch, quantity as q};
 
 /// One sample.
 #[derive(Clone, Copy, Debug)]
@@ -57,6 +58,7 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
         [steady[0] + push, steady[1] + push / ratio]
     };
     let mut march = March::new(column, still);
+    let mut track = waves.map(|(_, period)| Track::new(period, end, &march));
     let mut samples: Vec<Sample> = Vec::with_capacity(wanted);
     let (mut status, mut stuck) = (Status::Done, None);
     'time: for k in 1..=wanted {
@@ -69,6 +71,7 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
                 break 'time;
             }
             moved += 0.5 * (before + march.flux()) * (march.time - time);
+            track.iter_mut().for_each(|track| track.step(&march));
             let fraction = march.time / end;
             let rate = march.flux() * flow.velocity_scale() * flow.d;
             let snapshot = Snapshot { stage: "time", fraction, quantity: Some((&q::TRANSPORT_RATE, rate)) };
@@ -85,7 +88,7 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
             level: levels.bed_level(),
         });
     }
-    let outcome = finish(flow, &march, &samples, status)?;
+    let outcome = finish(flow, &march, (&samples, track.as_ref()), status)?;
     match stuck {
         None => Ok(outcome),
         Some(Stuck { time, dt, residual }) => {
@@ -95,8 +98,13 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
     }
 }
 
-fn finish(flow: &TwoFluid, march: &March, samples: &[Sample], status: Status) -> Result<Outcome, Failure> {
-    let (velocity, unit) = (flow.velocity_scale(), flow.d / flow.velocity_scale());
+fn finish(
+    flow: &TwoFluid,
+    march: &March,
+    (samples, track): (&[Sample], Option<&Track>),
+    status: Status,
+) -> Result<Outcome, Failure> {
+    let velocity = flow.velocity_scale();
     let mut outcome = report(flow, &march.column, (&march.state, &march.mobilised), Vec::new())?;
     outcome.status = status;
     // The balances of a steady flow do not hold in time.
@@ -108,6 +116,18 @@ fn finish(flow: &TwoFluid, march: &March, samples: &[Sample], status: Status) ->
     results.set(&q::STEPS, march.steps as f64);
     results.set(&q::STEPS_REFUSED, march.refused as f64);
     results.set(&q::NEWTON_ITERATIONS, march.iterations as f64);
+    if let Some(track) = track {
+        track.report(flow, results);
+        if let Some(profile) = &mut outcome.profile {
+            track.columns(flow, profile)?;
+        }
+    }
+    outcome.series = series(flow, samples)?;
+    // Under waves the means are those of whole periods.
+    if track.is_some() {
+        return Ok(outcome);
+    }
+    let results = &mut outcome.results;
     let late: Vec<f64> = samples[samples.len() / 2..].iter().map(|sample| sample.rate).collect();
     if late.is_empty() {
         results.undefined(&q::RATE_MEAN, "the flow did not reach a sample");
@@ -122,12 +142,20 @@ fn finish(flow: &TwoFluid, march: &March, samples: &[Sample], status: Status) ->
     } else {
         results.undefined(&q::RATE_SWING, "nothing is transported");
     }
+    Ok(outcome)
+}
+
+/// The samples as a table.
+fn series(flow: &TwoFluid, samples: &[Sample]) -> Result<Option<Series>, TableError> {
+    if samples.is_empty() {
+        return Ok(None);
+    }
+    let (velocity, unit) = (flow.velocity_scale(), flow.d / flow.velocity_scale());
     let mut series = Series::new((0..samples.len()).map(|k| k as f64).collect())?;
     let column = |of: &dyn Fn(&Sample) -> Option<f64>| samples.iter().map(of).collect::<Vec<_>>();
     series.push(&q::TIME, column(&|sample| Some(sample.time * unit)))?;
     series.push(&q::RATE_IN_TIME, column(&|sample| Some(sample.rate * velocity * flow.d)))?;
     series.push(&q::SHIELDS_IN_TIME, column(&|sample| Some(sample.shields)))?;
     series.push(&q::LEVEL_IN_TIME, column(&|sample| sample.level.map(|z| z * flow.d)))?;
-    outcome.series = Some(series);
-    Ok(outcome)
+    Ok(Some(series))
 }

@@ -28,6 +28,7 @@ mod system;
 #[cfg(test)]
 mod tests;
 mod transient;
+mod waves;
 
 pub use case::{FluidStress, State};
 use equations::equations;

@@ -4,6 +4,7 @@ use super::reference;
 use crate::models::two_fluid::levels::Levels;
 use crate::models::two_fluid::steady;
 use crate::models::two_fluid::transient::March;
+use crate::result::quantity as q;
 use approx::assert_relative_eq;
 
 #[test]
@@ -88,10 +89,34 @@ fn waves_go_to_and_fro() {
     let all: Vec<&str> = set.into_iter().chain(waves).collect();
     let flow = super::flow("flow_theta06-two-fluid", &all);
     let outcome = crate::models::two_fluid::run(&flow, 60, &mut crate::result::Quiet).unwrap();
-    let series = outcome.series.unwrap();
+    let series = outcome.series.as_ref().unwrap();
     let rates: Vec<f64> =
         series.get(&crate::result::quantity::RATE_IN_TIME).unwrap()[80..].iter().flatten().copied().collect();
     let (low, high) = rates.iter().fold((0.0_f64, 0.0_f64), |(a, b), x| (a.min(*x), b.max(*x)));
     assert!(high > 1e-4 && low < -1e-4, "{low} {high}");
     assert!((low + high).abs() < 0.3 * high, "{low} {high}");
+    // What is reported is of whole periods: the four of 8 s, of which the last two are averaged.
+    let get = |quantity: &crate::result::Quantity| outcome.results.get(quantity.name).unwrap();
+    let later = &rates;
+    let mean = later.iter().sum::<f64>() / later.len() as f64;
+    let amplitude = get(&q::RATE_AMPLITUDE);
+    assert!((get(&q::TRANSPORT_RATE) - mean).abs() < 1e-3 * amplitude, "{mean}");
+    let halves = [get(&q::RATE_FORWARD), get(&q::RATE_BACKWARD)];
+    assert_relative_eq!(0.5 * (halves[0] + halves[1]), get(&q::TRANSPORT_RATE), epsilon = 1e-9 * amplitude);
+    let of = |from: usize| {
+        let halves = [0, 40].map(|period| later[period + from..period + from + 20].iter().sum::<f64>() / 20.0);
+        0.5 * (halves[0] + halves[1])
+    };
+    assert!(halves[0] > 0.0 && halves[1] < 0.0, "{halves:?}");
+    assert!((halves[0] - of(0)).abs() + (halves[1] - of(20)).abs() < 2e-3 * amplitude, "{halves:?}");
+    assert!((amplitude / (0.5 * (high - low)) - 1.0).abs() < 0.05, "{amplitude} {low} {high}");
+    assert_relative_eq!(get(&q::AVERAGED_TIME), 4.0, max_relative = 1e-9);
+    // At 90 and 270 degrees the clear fluid is fastest: G T/(2 pi rho_f) without friction.
+    let top = |quantity: &crate::result::Quantity| {
+        outcome.profile.as_ref().unwrap().get(quantity).unwrap().last().unwrap().unwrap()
+    };
+    let fastest = 3000.0 * 2.0 / (std::f64::consts::TAU * 1000.0);
+    for (phase, sign) in [(1, 1.0), (3, -1.0)] {
+        assert!((0.8..1.05).contains(&(sign * top(q::PHASES[phase][1]) / fastest)), "{phase}");
+    }
 }
