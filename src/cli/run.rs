@@ -342,6 +342,7 @@ const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::LAYER_THICKNESS, &quantity::TEMPERATURE_MAX, &quantity::GROWTH_RATE],
     &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],
     &[&quantity::BINGHAM, &quantity::HALF_PLUG, &quantity::PLUG_VELOCITY],
+    &[&quantity::PLUG_SHARE, &quantity::DEAD_SHARE, &quantity::YIELD_OVER_CRITICAL],
     &[&quantity::PHI_BULK, &quantity::BED_LEVEL, &quantity::COORDINATION],
     &[&quantity::RESTITUTION, &quantity::CONTACT_TIME, &quantity::TANGENTIAL_VELOCITY],
     &[&quantity::SURFACE_VELOCITY, &quantity::INERTIAL_NUMBER_FILM, &quantity::ROUGHNESS_LENGTH],

@@ -168,6 +168,7 @@ catalogue! {
     U_MAX_DIMENSIONLESS = "u_max_dimensionless", "dimensionless largest velocity", "u_max η/(S H)", "1", "largest mixture velocity over S H/η";
     SECTION_AREA = "section_area_m2", "area of the section", "A", "m²", "of the whole cross-section, bed included";
     PLUG_SHARE = "plug_share", "share of the plug", "A_plug/A", "1", "area that moves without shear over that of the section";
+    YIELD_OVER_CRITICAL = "yield_over_critical", "yield stress over that which stops the flow", "τ_0/τ_c", "1", "nothing moves from 1 on; τ_c is the drive times the smallest ratio of area to rim of all parts of the section";
     DEAD_SHARE = "dead_share", "share at rest", "A_dead/A", "1", "area at rest below the yield stress over that of the section";
     STREAM_MAX = "stream_function_max", "strength of the vortex", "|ψ|/(U H)", "1", "largest magnitude of the stream function over velocity of the lid and side";
     VORTEX_Y = "vortex_y_m", "vortex centre across", "y_v", "m", "distance of the largest stream function from the wall that the lid leaves";

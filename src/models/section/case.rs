@@ -62,7 +62,7 @@ pub struct SectionGrid {
     /// Whether a row of elements ends on the yield surface of a bed.
     #[serde(default = "yes")]
     pub yield_row: bool,
-    /// Size of the elements at the walls and at the bed level over the mean one; 1: equal elements.
+    /// Size of the elements at the walls and at the bed level over the mean one; 1: equal elements, but near the stop of a Bingham fluid.
     #[serde(default = "one")]
     #[schemars(extend("x-unit" = "1", "minimum" = 0.001, "maximum" = 1.0))]
     pub finest: f64,

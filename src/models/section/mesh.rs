@@ -39,6 +39,18 @@ impl Outline {
         }
     }
 
+    /// Yield stress over the drive, -dp/dx times the height, from which on nothing moves: the smallest ratio of area to rim of all parts
+    /// of the section, which has arcs of this radius for corners. Source: Mosolov & Miasnikov (1965), J. Appl. Math. Mech. 29, 545-577;
+    /// Kawohl & Lachand-Robert (2006), Pacific J. Math. 225, 103-118.
+    #[must_use]
+    pub fn critical_yield(&self) -> f64 {
+        match self {
+            Self::Rectangle { width } => (1.0 + width - ((1.0 - width).powi(2) + PI * width).sqrt()) / (4.0 - PI),
+            Self::Circle => 0.25,
+            Self::Planes => 0.5,
+        }
+    }
+
     /// Height of the row at `s` in 0..1.
     fn height(&self, s: f64) -> f64 {
         match self {

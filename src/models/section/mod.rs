@@ -10,6 +10,7 @@
 pub mod case;
 mod cavity;
 mod cavity_outcome;
+mod description;
 mod dual;
 mod duct;
 mod element;
@@ -29,6 +30,7 @@ mod tests;
 
 pub use case::Method;
 use cavity_outcome::{equations as cavity_equations, run as run_cavity};
+use description::equations;
 pub use error::{SectionError, SectionFault};
-use outcome::{equations, run};
+use outcome::run;
 pub use problem::{CavityFlow, Contents, Duct, DuctBed, DuctFlow, Outline, SectionMethod};

@@ -143,7 +143,7 @@ fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
         Filling::Bed { e, k: None, .. } => Some(e),
         Filling::Bed { .. } => None,
     };
-    let (mut plug, mut dead) = (0.0, 0.0);
+    let (mut plug, mut dead, mut yielded) = (0.0, 0.0, 0.0);
     let (mut still, mut all, mut ratio) = (vec![0.0; mesh.nodes()], vec![0.0; mesh.nodes()], vec![0.0; mesh.nodes()]);
     for element in 0..mesh.elements() {
         let nodes = mesh.element(element);
@@ -169,7 +169,14 @@ fn areas(solution: &Solution, w: &[f64], rest: f64) -> Areas {
             nodes.iter().for_each(|node| still[*node] += 1.0);
             let speed = nodes.iter().map(|node| w[*node].abs()).sum::<f64>() / 9.0;
             *(if speed < rest { &mut dead } else { &mut plug }) += area;
+        } else {
+            yielded += area;
         }
+    }
+    // Nothing moves where nothing yields, but for the creep of a regularisation.
+    let bingham = matches!(divided.duct.filling, Filling::Bingham(y) if y > 0.0);
+    if bingham && (yielded == 0.0 || rest == 0.0) {
+        (dead, plug) = (divided.duct.shape.area(), 0.0);
     }
     let mean = |sums: &[f64]| -> Vec<f64> { sums.iter().zip(&all).map(|(s, a)| s / a).collect() };
     Areas { plug, dead, unyielded: mean(&still), stress: viscosity.is_some().then(|| mean(&ratio)) }

@@ -9,12 +9,9 @@ use super::full::Full;
 use super::newton::{self, Unsolved};
 use super::numbers::Numbers;
 use super::solve::Solution;
-use crate::closures::drag::carman_kozeny;
-use crate::closures::friction::coulomb;
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::mixture_viscosity::RelativeViscosity;
-use crate::closures::regularisation::{Regularisation, Smoothing};
-use crate::models::exact::ouriemi::viscosity_text;
+use crate::closures::regularisation::Regularisation;
 use crate::models::premises::outside;
 use crate::models::section::SectionError;
 use crate::models::section::{Contents, DuctFlow, Method, Outline};
@@ -23,7 +20,7 @@ use crate::result::{
     quantity as q, quantity::Quantity,
 };
 use crate::result::{Field, NumericalError};
-use crate::units::{significant, stated};
+use crate::units::significant;
 
 impl Unsolved {
     /// The reason in SI; `shear` is the unit of the shear rate [1/s].
@@ -138,29 +135,46 @@ fn failed(unsolved: Unsolved, flow: &DuctFlow) -> SolveError {
     unsolved.into_error(flow.solver.method, flow.shear_scale())
 }
 
+fn of_the_stop(share: f64) -> String {
+    format!("its yield stress is {} of that which stops it", significant(share, 5))
+}
+
 fn results(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Results {
     let (h, shear) = (flow.h, flow.shear_scale());
     let area = flow.outline.area() * h * h;
     let rate = numbers.flow_rate * shear * h.powi(3);
     let mut results = Results::default();
-    results.set(&q::REYNOLDS_GAP, reynolds_gap(flow, numbers));
-    results.set(&q::FLOW_RATE, rate);
-    results.set(&q::FLOW_RATE_DIMENSIONLESS, numbers.flow_rate);
-    results.set(&q::U_MAX, numbers.u_max.value * shear * h);
-    results.set(&q::U_MAX_DIMENSIONLESS, numbers.u_max.value);
-    results.set(&q::U_MAX_LEVEL, numbers.u_max.level * h);
-    results.set(&q::MEAN_VELOCITY, rate / area);
-    results.set(&q::DEAD_SHARE, numbers.dead / flow.outline.area());
+    let share = solution.divided.duct.yield_over_critical();
+    let moving = [
+        (&q::REYNOLDS_GAP, reynolds_gap(flow, numbers)),
+        (&q::FLOW_RATE, rate),
+        (&q::FLOW_RATE_DIMENSIONLESS, numbers.flow_rate),
+        (&q::U_MAX, numbers.u_max.value * shear * h),
+        (&q::U_MAX_DIMENSIONLESS, numbers.u_max.value),
+        (&q::U_MAX_LEVEL, numbers.u_max.level * h),
+        (&q::MEAN_VELOCITY, rate / area),
+        (&q::DEAD_SHARE, numbers.dead / flow.outline.area()),
+        (&q::PLUG_SHARE, numbers.plug / flow.outline.area()),
+    ];
+    let bingham = share.is_some();
+    for (quantity, value) in moving.into_iter().filter(|(quantity, _)| bingham || quantity.name != q::PLUG_SHARE.name) {
+        match share.filter(|share| rate == 0.0 && *share < 1.0) {
+            // What should flow, but in a layer that no element fits into.
+            Some(share) => results.undefined(quantity, &format!("{}; take more grid.cells", of_the_stop(share))),
+            None => results.set(quantity, value),
+        }
+    }
     results.set(&q::FLOW_HEIGHT, h);
     results.set(&q::SECTION_AREA, area);
     results.set(&q::DRIVE, flow.gradient);
     let rho = match &flow.contents {
         Contents::Bingham { rho, eta, tau_0 } => {
-            results.set(&q::PLUG_SHARE, numbers.plug / flow.outline.area());
+            let share = share.unwrap_or_default();
+            results.set(&q::YIELD_OVER_CRITICAL, share);
             if rate > 0.0 {
                 results.set(&q::BINGHAM, tau_0 * h * area / (eta * rate));
             } else {
-                results.undefined(&q::BINGHAM, "nothing moves");
+                results.undefined(&q::BINGHAM, &format!("the fluid stands still: {}", of_the_stop(share)));
             }
             *rho
         }
@@ -218,8 +232,15 @@ fn draw_out(
 fn changed(solution: &Solution, x: &[f64], numbers: &Numbers, results: &mut Results) {
     let divided = &solution.divided;
     let norm = |of: &dyn Fn(usize) -> f64| (0..x.len()).map(|i| of(i).powi(2)).sum::<f64>().sqrt();
-    let change = norm(&|i| solution.solved.x[i] - x[i]) / norm(&|i| x[i]);
-    results.set(&q::REGULARISATION_VELOCITY, change);
+    let size = norm(&|i| x[i]);
+    if size > 0.0 {
+        results.set(&q::REGULARISATION_VELOCITY, norm(&|i| solution.solved.x[i] - x[i]) / size);
+    } else {
+        results.undefined(
+            &q::REGULARISATION_VELOCITY,
+            "with the exact yield nothing moves: what is reported is the creep of the regularisation",
+        );
+    }
     let exact = divided.integral(&divided.grains(x), 0..divided.mesh.bed_rows);
     if divided.mesh.bed_rows > 0 && exact > 0.0 {
         results.set(&q::REGULARISATION_RATE, numbers.grains / exact - 1.0);
@@ -316,66 +337,4 @@ fn reynolds_gap(flow: &DuctFlow, numbers: &Numbers) -> f64 {
         Outline::Circle | Outline::Planes => height,
     };
     rho * numbers.clear * flow.shear_scale() * flow.h * gap * flow.h / flow.viscosity()
-}
-
-/// The equations that are solved, with their numbers.
-#[must_use]
-pub fn equations(flow: &DuctFlow) -> String {
-    let n = |x: f64| significant(x, 5);
-    let duct = Duct::scaled(flow);
-    let outline = match flow.outline {
-        Outline::Rectangle { width } => format!("rectangle {} H wide", n(width)),
-        Outline::Circle => "circle of diameter H".into(),
-        Outline::Planes => "two planes".into(),
-    };
-    let mut text = format!(
-        "Developed flow along a duct, {outline}.\n\n\
-         units      H = {} m,  S = {} = {} Pa,  S H/η = {} m/s\n\
-         drive      f = -dp/dx H/S = {}\n",
-        n(flow.h),
-        if duct.bed().is_some() { "(ρ_p - ρ_f) g H" } else { "-dp/dx H" },
-        n(flow.stress_scale()),
-        n(flow.shear_scale() * flow.h),
-        n(duct.f),
-    );
-    text += &match duct.filling {
-        Filling::Bingham(y) => format!(
-            "material   viscosity 1, yield stress y = τ_0/S = {}\n\
-             minimum    ∫ |∇u|²/2 + y |∇u| - f u  over the section,  u = 0 on the wall\n",
-            n(y)
-        ),
-        Filling::Bed { level, e, resistance, k } => {
-            let bed = format!(
-                "bed        z < h_p = {} H,  viscosity e = η_e/η = {},  yield stress y = μ_s φ (h_p - z),  μ_s φ = {}\n",
-                n(level),
-                n(e),
-                n(resistance)
-            );
-            bed + match k {
-                None => "minimum    ∫ e |∇u|²/2 + y |∇u| - f u  over the section,  u = 0 on the wall\n",
-                Some(_) => {
-                    "minimum    ∫ e |∇U|²/2 - f U  over the section  +  ∫ (U - u_p)²/(2 K) + y |∇u_p|  over the bed\n\
-                     \x20          U = 0 and u_p = 0 on the wall\n"
-                }
-            }
-        }
-    };
-    if let Contents::Bed(bed) = &flow.contents {
-        text += &format!("viscosity  {}\nfriction   {}\n", viscosity_text(bed), coulomb::INFO.equation);
-        text.extend(bed.drag.map(|law| {
-            let k = law.permeability(bed.phi, bed.d / bed.h);
-            format!(
-                "drag       {},  ε = 1 - φ,  in these units K = {},  Brinkman length sqrt(K e) = {} H\n",
-                stated(carman_kozeny::INFO.equation, &[("k_CK", law.k_ck, "")]),
-                n(k),
-                n((k * bed.viscosity.relative(bed.phi)).sqrt())
-            )
-        }));
-    }
-    let Regularisation { law, lambda } = flow.regularisation;
-    let lead = if law == Smoothing::Simple { "|γ| y replaced so that the stress is" } else { "stress" };
-    let yielding = law
-        .equation()
-        .map_or("exact".into(), |law| format!("{lead} y {},  λ = {}", law.trim_start_matches("sign(γ) "), n(lambda)));
-    format!("{text}yield      {yielding}\n")
 }

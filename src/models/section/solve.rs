@@ -15,6 +15,11 @@ const COARSEST: usize = 24;
 /// Iterations of solving and dividing on the coarsest mesh; on the others one is enough.
 const DIVISIONS: usize = 3;
 
+/// Size of the elements at the walls near the stop over what is missing to it, half of the layer that is sheared, and over equal elements
+/// at least: arcs in the corners, which no row follows, need elements, too.
+const IN_LAYER: f64 = 0.25;
+const THINNEST: f64 = 0.05;
+
 /// A solved duct.
 #[derive(Clone, Debug)]
 pub struct Solution {
@@ -39,6 +44,23 @@ impl Duct {
         }
     }
 
+    /// Yield stress over that from which on nothing moves; for a Bingham fluid.
+    #[must_use]
+    pub fn yield_over_critical(&self) -> Option<f64> {
+        match self.filling {
+            Filling::Bingham(y) => Some(y / (self.f * self.shape.critical_yield())),
+            Filling::Bed { .. } => None,
+        }
+    }
+
+    /// Size of the elements at the walls over that of equal ones, `finest` or less: near the stop of a Bingham fluid nothing but a layer
+    /// at the walls is sheared, half as thick as what is missing to the stop. Elements that do not fit into it do not yield.
+    fn finest(&self, rows: usize, finest: f64) -> f64 {
+        let Some(share) = self.yield_over_critical() else { return finest };
+        let narrowest = if let Outline::Rectangle { width } = self.shape { width.min(1.0) } else { 1.0 };
+        finest.min((IN_LAYER * narrowest * rows as f64 * (1.0 - share)).max(THINNEST))
+    }
+
     /// Solves on `rows` elements from the bottom to the top; `see` receives the number of unknowns and the relative change of
     /// each iteration.
     ///
@@ -53,7 +75,7 @@ impl Duct {
     ) -> Result<Solution, Unsolved> {
         let mut iterations = 0;
         let mut on = |rows: usize, line: Option<&[f64]>, last: bool| -> Result<Solution, Unsolved> {
-            let divided = self.divide(self.columns(rows), rows, how.finest, line);
+            let divided = self.divide(self.columns(rows), rows, self.finest(rows, how.finest), line);
             let n = divided.program.size();
             let mut see = |change: f64| see(n, change);
             let solved = match how.method {

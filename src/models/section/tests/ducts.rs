@@ -15,6 +15,8 @@ use crate::models::section::{dual, newton};
 use super::run;
 
 const SQUARE: Outline = Outline::Rectangle { width: 1.0 };
+/// Flow rate of the square at 0.992 of its critical yield stress.
+const SQUARE_AT_0992: f64 = 5.86e-6;
 const HOW: SectionMethod =
     SectionMethod { method: Method::Newton, yield_row: true, finest: 1.0, tolerance: 1e-8, iterations: 20_000 };
 
@@ -175,6 +177,56 @@ fn a_square_duct_stops_at_the_critical_bingham_number() {
     let carried = flow_rate(&below) / u_max(&below);
     println!("flow rate over the largest velocity {carried:.5}");
     assert!(carried < onset && carried > 0.995 * onset, "{carried}");
+}
+
+#[test]
+fn a_duct_near_its_stop_flows_and_beyond_it_stands_still() {
+    // Buckingham and Reiner, and the same between planes.
+    let x = 0.992_f64;
+    let pipe = PI / 128.0 * (1.0 - 4.0 * x / 3.0 + x.powi(4) / 3.0);
+    let planes = (1.0 - 1.5 * x + 0.5 * x.powi(3)) / 12.0;
+    // The square: its own value on 384 rows; on equal elements of 64 rows it stood still.
+    for (shape, rate, digits) in
+        [(SQUARE, SQUARE_AT_0992, 0.03), (Outline::Circle, pipe, 0.01), (Outline::Planes, planes, 1e-3)]
+    {
+        let at = |share: f64| Numbers::of(&exact(&bingham(shape, share * shape.critical_yield()), 64));
+        let flows = at(x);
+        println!("{shape:?}: {:.4e}, right {rate:.4e}", flows.flow_rate);
+        assert!((flows.flow_rate / rate - 1.0).abs() < digits, "{shape:?}: {} {rate}", flows.flow_rate);
+        assert!(flows.plug > 0.8 * shape.area() && flows.dead < 0.06, "{shape:?}: {} {}", flows.plug, flows.dead);
+        for share in [1.0, 1.008, 5.0] {
+            let still = at(share);
+            assert_eq!((still.flow_rate, still.u_max.value, still.plug), (0.0, 0.0, 0.0), "{shape:?} {share}");
+            assert_eq!(still.dead, shape.area(), "{shape:?} {share}");
+        }
+    }
+}
+
+#[test]
+fn the_critical_bingham_number_on_128_rows() {
+    for shape in [SQUARE, Outline::Circle] {
+        let flows = |share: f64| flow_rate(&exact(&bingham(shape, share * shape.critical_yield()), 128)) > 0.0;
+        assert!(flows(0.998) && !flows(1.0), "{shape:?}");
+    }
+}
+
+#[test]
+fn what_stands_still_says_so() {
+    let stress = format!("fluid.yield_stress={}", 1.02 / (2.0 + PI.sqrt()));
+    let creeping = ["regularisation.law=simple", "regularisation.lambda_scaled=1e-6"];
+    for law in [&[] as &[&str], &creeping] {
+        let set: Vec<&str> = [stress.as_str(), "grid.cells=24"].into_iter().chain(law.iter().copied()).collect();
+        let outcome = run("section_2d_square", &set);
+        let get = |name: &str| outcome.results.get(name);
+        assert_eq!((get("plug_share"), get("dead_share")), (Some(0.0), Some(1.0)), "{law:?}");
+        assert!((get("yield_over_critical").unwrap() - 1.02).abs() < 1e-12);
+        if law.is_empty() {
+            assert_eq!(get("flow_rate_m3_s"), Some(0.0));
+            let (_, bingham) = outcome.results.iter().find(|(name, _)| *name == "bingham_number").unwrap();
+            let reason = bingham.reason.as_deref().unwrap();
+            assert!(reason.contains("stands still") && reason.contains("1.02"), "{reason}");
+        }
+    }
 }
 
 #[test]
