@@ -337,7 +337,7 @@ fn at_round_off(balances: &[Balance]) -> bool {
 const HEADLINES: &[&[&quantity::Quantity]] = &[
     &[&quantity::SHIELDS, &quantity::SHIELDS_DRIVE, &quantity::U_STAR],
     &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
-    &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE],
+    &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE, &quantity::UNYIELDED_SHARE_ERROR],
     &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
     &[&quantity::LAYER_THICKNESS, &quantity::TEMPERATURE_MAX, &quantity::GROWTH_RATE],
     &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],

@@ -173,7 +173,8 @@ catalogue! {
     STREAM_MAX = "stream_function_max", "strength of the vortex", "|ψ|/(U H)", "1", "largest magnitude of the stream function over velocity of the lid and side";
     VORTEX_Y = "vortex_y_m", "vortex centre across", "y_v", "m", "distance of the largest stream function from the wall that the lid leaves";
     VORTEX_Z = "vortex_z_m", "vortex centre above the bottom", "z_v", "m", "elevation of the largest stream function";
-    UNYIELDED_SHARE = "unyielded_share", "unyielded share", "A_0/A", "1", "area below the yield stress, moving or at rest, over that of the section; first order in the size of the cells";
+    UNYIELDED_SHARE = "unyielded_share", "unyielded share", "A_0/A", "1", "area below the yield stress, moving or at rest, over that of the section; extrapolated from all and half the cells, with the order of 1 that it has";
+    UNYIELDED_SHARE_ERROR = "unyielded_share_error", "error of the unyielded share", "δ(A_0/A)", "1", "what the extrapolation adds, and what it differs by from that of half the cells";
     SECTION_DEVIATION = "section_deviation", "deviation of the whole duct from its section", "|Δu|/u_max", "1", "largest difference of the velocity along the flow from that of the section on the same elements, over the largest velocity";
     CROSS_FLOW = "cross_flow", "flow across the duct", "|v|/u_max", "1", "largest velocity across the whole duct over the largest one along it";
     UNEVEN_FLOW = "uneven_flow", "unevenness along the duct", "|Δ_x u|/u_max", "1", "largest deviation of the velocity from its mean along the whole duct, over the largest velocity";

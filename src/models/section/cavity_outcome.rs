@@ -29,17 +29,21 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
         let stage = format!("iteration {iterations}, change {change:.1e}");
         watch.see(&Snapshot { stage: &stage, fraction: 1.0 - 1.0 / (1.0 + 0.05 * iterations as f64), quantity: None })
     };
-    let solved = match flow.solver.method {
-        Method::Newton => newton::solve(&cavity.program, law, &mut see),
-        Method::FirstOrder => dual::solve(&cavity.program, flow.solver.tolerance, flow.solver.iterations, &mut see),
-    };
-    let solved = match solved {
+    let solved = match solve(flow, &cavity, &mut see) {
         Err(Unsolved::Stopped) => return Ok(Outcome::stopped()),
         solved => solved.map_err(|unsolved| failed(unsolved, flow))?,
     };
     let psi = cavity.stream(&solved.x);
     let stresses = cavity.stresses(&solved);
-    let mut results = results(flow, &cavity, &solved, &psi, &stresses);
+    let mut results = results(flow, &cavity, &solved, &psi);
+    match share(flow, &cavity, &stresses, cells, &mut see) {
+        Err(Unsolved::Stopped) => return Ok(Outcome::stopped()),
+        Err(unsolved) => return Err(failed(unsolved, flow).into()),
+        Ok((share, error)) => {
+            results.set(&q::UNYIELDED_SHARE, share);
+            results.set(&q::UNYIELDED_SHARE_ERROR, error);
+        }
+    }
     if !law.is_exact() {
         match newton::solve(&cavity.program, &Regularisation::EXACT, &mut see) {
             Err(Unsolved::Stopped) => return Ok(Outcome::stopped()),
@@ -73,6 +77,42 @@ pub fn run(flow: &CavityFlow, cells: usize, watch: &mut dyn Watch) -> Result<Out
     })
 }
 
+fn solve(
+    flow: &CavityFlow,
+    cavity: &Cavity,
+    see: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Solved<5>, Unsolved> {
+    match flow.solver.method {
+        Method::Newton => newton::solve(&cavity.program, &flow.regularisation, see),
+        Method::FirstOrder => dual::solve(&cavity.program, flow.solver.tolerance, flow.solver.iterations, see),
+    }
+}
+
+/// Unyielded share, extrapolated to cells of no size, and its error. Cells either yield or do not, so that the share on a mesh has the
+/// order 1, with a scatter: the error is what the extrapolation from all and half the cells adds, and what it differs by from that
+/// from half and a quarter of them.
+fn share(
+    flow: &CavityFlow,
+    cavity: &Cavity,
+    stresses: &[f64],
+    cells: usize,
+    see: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<(f64, f64), Unsolved> {
+    if flow.tau_0 == 0.0 {
+        return Ok((0.0, 0.0));
+    }
+    let size = |cavity: &Cavity| (cavity.lines().0 - 1) as f64;
+    let mut on = |cells: usize| -> Result<(f64, f64), Unsolved> {
+        let cavity = Cavity::new(flow.bingham(), cells, flow.solver.finest);
+        let solved = solve(flow, &cavity, see)?;
+        Ok((size(&cavity), cavity.unyielded(&cavity.stresses(&solved))))
+    };
+    let (all, half, quarter) = ((size(cavity), cavity.unyielded(stresses)), on(cells / 2)?, on(cells / 4)?);
+    let added = |(n, fine): (f64, f64), (m, rough): (f64, f64)| (fine - rough) * m / (n - m);
+    let (share, before) = (all.1 + added(all, half), half.1 + added(half, quarter));
+    Ok((share.clamp(0.0, 1.0), added(all, half).abs() + (share - before).abs()))
+}
+
 /// Stress over yield stress beyond which it makes no difference.
 const LARGE: f64 = 2.0;
 
@@ -92,6 +132,12 @@ impl Cavity {
         let part = |k: usize, d: usize| points[k].carried * solved.q[k][d] + points[k].weight * solved.g[k][d];
         let stress = |k: usize| part(k, 0).hypot(0.5 * (1..5).map(|d| part(k, d)).sum::<f64>());
         (0..points.len()).map(|k| stress(k) / points[k].carried).collect()
+    }
+
+    /// Area of the cells that do not yield.
+    fn unyielded(&self, stresses: &[f64]) -> f64 {
+        let cells = self.program.points.iter().zip(stresses);
+        cells.filter(|(_, s)| **s < 1.0).map(|(p, _)| p.weight).fold(0.0, |sum, w| sum + w)
     }
 
     /// Place and size of the largest magnitude of the stream function: top of the parabolas through the largest node and its
@@ -125,21 +171,12 @@ fn top(x: &[f64], f: &[f64; 3]) -> (f64, f64) {
     (place, f[0] + (place - x[0]) * (left + curvature * (place - x[1])))
 }
 
-fn results(flow: &CavityFlow, cavity: &Cavity, solved: &Solved<5>, psi: &[f64], stresses: &[f64]) -> Results {
+fn results(flow: &CavityFlow, cavity: &Cavity, solved: &Solved<5>, psi: &[f64]) -> Results {
     let (y, z, strength) = cavity.vortex(psi);
-    let area: f64 = cavity
-        .program
-        .points
-        .iter()
-        .zip(stresses)
-        .filter(|(_, s)| **s < 1.0)
-        .map(|(p, _)| p.weight)
-        .fold(0.0, |sum, w| sum + w);
     let mut results = Results::default();
     results.set(&q::STREAM_MAX, strength);
     results.set(&q::VORTEX_Y, y * flow.h);
     results.set(&q::VORTEX_Z, z * flow.h);
-    results.set(&q::UNYIELDED_SHARE, area);
     results.set(&q::BINGHAM, flow.bingham());
     results.set(&q::FLOW_HEIGHT, flow.h);
     results.set(&q::REYNOLDS, flow.rho * flow.lid * flow.h / flow.eta);

@@ -72,3 +72,20 @@ fn as_much_flows_to_the_right_as_to_the_left() {
     }
     assert!((face - 1.0).abs() < 1e-12 && flow.abs() < 1e-12 * size, "{face} {flow} {size}");
 }
+
+#[test]
+fn the_unyielded_share_is_right_within_its_error() {
+    // Extrapolated from 96 and 192 cells, and the scatter of that.
+    for (bn, right, scatter) in [(2, 0.2536, 6e-3), (5, 0.4471, 2e-3), (20, 0.6815, 5e-3), (50, 0.7906, 4e-3)] {
+        let errors = [24, 48, 96].map(|cells| {
+            let outcome = run(&format!("section_2d_cavity_bn{bn}"), &[&format!("grid.cells={cells}")]);
+            let (share, error) = (get(&outcome, "unyielded_share"), get(&outcome, "unyielded_share_error"));
+            println!("Bn {bn} on {cells}: {share:.4} ± {error:.4}, right {right}");
+            assert!((share - right).abs() < error + scatter, "Bn {bn} on {cells}: {share} {error}");
+            error
+        });
+        assert!(errors[2] < 0.05, "Bn {bn}: {errors:?}");
+    }
+    let outcome = run("section_2d_cavity_bn0", &["grid.cells=16"]);
+    assert_eq!((get(&outcome, "unyielded_share"), get(&outcome, "unyielded_share_error")), (0.0, 0.0));
+}
