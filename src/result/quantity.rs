@@ -259,6 +259,7 @@ catalogue! {
     EFFECTIVE_RESTITUTION = "effective_restitution", "effective restitution coefficient", "e_eff", "1", "restitution coefficient in the dissipation by contacts";
     STATIC_FRICTION = "static_friction", "static friction", "μ_s", "1", "stress ratio of enduring contacts";
     GROWTH_RATE = "growth_rate_1_s", "growth rate of a disturbance", "σ", "1/s", "of the small disturbance of the steady flow that grows fastest; the flow is unstable where it is positive";
+    GROWTH_RATE_ERROR = "growth_rate_error_1_s", "error of the growth rate", "δσ", "1/s", "difference from that on half the cells; the growth rate is given up to a tenth of it";
     GROWTH_FREQUENCY = "growth_frequency_1_s", "angular frequency of that disturbance", "ω", "1/s", "0 where it does not oscillate";
     RATE_MEAN = "transport_rate_mean_m2_s", "mean transport rate", "<q_p>", "m²/s", "over the second half of the simulated time";
     RATE_MEAN_SCALED = "transport_rate_mean_dimensionless", "mean dimensionless transport rate", "<Q*>", "1", "over the second half of the simulated time";

@@ -10,10 +10,10 @@
 pub mod case;
 mod cavity;
 mod cavity_outcome;
+mod description;
 mod dual;
 mod duct;
 mod element;
-mod equations;
 mod error;
 mod fit;
 mod full;
@@ -30,7 +30,7 @@ mod tests;
 
 pub use case::Method;
 use cavity_outcome::{equations as cavity_equations, run as run_cavity};
-use equations::equations;
+use description::equations;
 pub use error::{SectionError, SectionFault};
 use outcome::run;
 pub use problem::{CavityFlow, Contents, Duct, DuctBed, DuctFlow, Outline, SectionMethod};

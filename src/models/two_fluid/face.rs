@@ -92,6 +92,8 @@ pub struct Setting<'a> {
     /// whether enduring contacts have the friction that is mobilised, or that of the law: the same in the end, but at rest
     /// only the first says how much
     pub mobilised: bool,
+    /// whether what passes is the mean of both ways, as for disturbances of a flow without vertical motion
+    pub both_ways: bool,
 }
 
 /// `x/(e^x - 1)`.
@@ -152,9 +154,19 @@ impl Setting<'_> {
         let (kinetic, flux) = self.moving((phi, gap), (k, shear, r), lower, upper, dz);
         let contact = self.contact((lower.elastic + upper.elastic) * 0.5, shear, r);
 
-        // Grains are those of the cell that they leave.
-        let leaving = |below: T, above: T| if w.value() > 0.0 { below } else { above };
-        let passing = leaving(lower.phi, upper.phi) * w;
+        // Grains are those of the cell that they leave; the fluid that makes room goes the other way.
+        let passed = |from: &Cell<T>, to: &Cell<T>| {
+            let passing = from.phi * w;
+            [passing, -passing * to.u, passing * from.v * laws.ratio, passing * from.t * (1.5 * laws.ratio)]
+        };
+        let [passing, fluid, grains, heat] = if self.both_ways {
+            let (up, down) = (passed(lower, upper), passed(upper, lower));
+            std::array::from_fn(|k| (up[k] + down[k]) * 0.5)
+        } else if w.value() > 0.0 {
+            passed(lower, upper)
+        } else {
+            passed(upper, lower)
+        };
         let fade = phi / (phi + laws.floors.phi);
         let pressure = (bernoulli(-a) * upper.per_grain - bernoulli(a) * lower.per_grain) / dz;
         let mut vertical =
@@ -164,10 +176,7 @@ impl Setting<'_> {
         }
 
         let (u, v) = (viscous + turbulent, kinetic + contact);
-        // The fluid that makes room goes the other way.
-        let fluid = -passing * leaving(upper.u, lower.u);
-        let grains = passing * leaving(lower.v, upper.v) * laws.ratio;
-        let heat = passing * leaving(lower.t, upper.t) * (1.5 * laws.ratio) + flux;
+        let heat = heat + flux;
         // Each cell takes the work done in its half.
         let heated = |half: f64, p: T, sign: f64| match laws.moving {
             Moving::Kinetic(_) => (heat + p * w) * sign - kinetic * shear * half,

@@ -8,6 +8,7 @@ use super::laws::Laws;
 use super::levels::{Levels, NONE};
 use super::newton::{Left, NotConverged};
 use super::profile::profile;
+use super::stability::Unknown;
 use super::state::Unknowns;
 use super::steady;
 use super::system::{Column, Spacing};
@@ -20,6 +21,7 @@ use crate::models::premises::outside;
 use crate::models::two_fluid::TwoFluidError;
 use crate::models::two_fluid::{State, TwoFluid};
 use crate::result::{Balance, Failure, NumericalError, Outcome, Results, Snapshot, Validity, Watch, quantity as q};
+use crate::units::significant;
 
 /// Scaled numbers from which on products of a few of them overflow.
 const LARGEST: f64 = 1e60;
@@ -59,13 +61,7 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
     let mut outcome = report(flow, &column, (&solved.state, &solved.mobilised), solved.history)?;
     outcome.results.set(&q::NEWTON_ITERATIONS, solved.iterations as f64);
     let unit = flow.d / flow.velocity_scale();
-    match column.growth(&solved.state) {
-        Some(growth) => {
-            outcome.results.set(&q::GROWTH_RATE, growth.rate / unit);
-            outcome.results.set(&q::GROWTH_FREQUENCY, growth.frequency / unit);
-        }
-        None => outcome.results.undefined(&q::GROWTH_RATE, "no eigenvalue was found"),
-    }
+    growth(&column, &solved.state, unit, &mut outcome.results);
     Ok(outcome)
 }
 
@@ -83,6 +79,29 @@ fn no_steady_flow(flow: &TwoFluid, NotConverged { residual, iterations, left }: 
         Left::March(step) => {
             let fall = (flow.rho_p / flow.rho_f).sqrt() * flow.d / flow.velocity_scale();
             TwoFluidError::DoesNotSettle { step_s: step * fall, iterations, shields }
+        }
+    }
+}
+
+/// Whether the flow is stable; `unit` is that of time \[s].
+fn growth(column: &Column, state: &[Unknowns], unit: f64, results: &mut Results) {
+    match column.converged_growth(state) {
+        Ok((growth, difference)) => {
+            results.set(&q::GROWTH_RATE, growth.rate / unit);
+            results.set(&q::GROWTH_RATE_ERROR, difference / unit);
+            results.set(&q::GROWTH_FREQUENCY, growth.frequency / unit);
+        }
+        Err(unknown) => {
+            let cells = column.cells();
+            let reason = match unknown {
+                Unknown::NoEigenvalue => "no eigenvalue was found".to_owned(),
+                Unknown::NoSecondGrid => format!("no steady flow was found on {} cells to compare with", cells / 2),
+                Unknown::OfTheCells(rates) => {
+                    let [fine, rough] = rates.map(|rate| significant(rate / unit, 3));
+                    format!("not converged: {fine} on {cells} cells, {rough} on {}; take more grid.cells", cells / 2)
+                }
+            };
+            results.undefined(&q::GROWTH_RATE, &reason);
         }
     }
 }

@@ -48,6 +48,20 @@ pub fn coarser(column: &Column, cells: usize) -> Column {
     Column { widths: column.spacing.widths(cells), ..column.clone() }
 }
 
+/// The column in fewer cells with its steady flow, near the steady flow `state` on all of them; `None` if there is none.
+#[must_use]
+pub fn on_cells(column: &Column, state: &[Unknowns], cells: usize) -> Option<(Column, Vec<Unknowns>)> {
+    let coarse = coarser(column, cells);
+    let from = coarse.transfer(column, state);
+    let (mut iterations, mut history) = (0, Vec::new());
+    let settled = settle(&coarse, &mut from.clone(), &mut Linear::new(coarse.cells()), &mut history);
+    let state = match settled {
+        Ok((state, _)) => state,
+        Err(_) => march(&coarse, from, &mut iterations, &mut history, &mut |_| false).ok()?,
+    };
+    Some((coarse, state))
+}
+
 /// How far a march with the step `dt` is, from 0 to 1.
 fn share(dt: f64) -> f64 {
     (dt / STEPS[0]).max(1.0).ln() / (STEPS[2] / STEPS[0]).ln()

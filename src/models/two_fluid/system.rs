@@ -121,7 +121,7 @@ impl Column {
         memory: &Memory,
         mobilised: &[Mobilised],
     ) -> (Vec<Face<f64>>, Vec<Inside<f64>>) {
-        let setting = Setting { laws: &self.laws, rate: memory.rate, mobilised: true };
+        let setting = Setting { laws: &self.laws, rate: memory.rate, mobilised: true, both_ways: false };
         let cells: Vec<Cell<f64>> = state.iter().map(|x| Cell::new(&self.laws, x)).collect();
         let mut faces = vec![setting.wall(0.5 * self.widths[0], &cells[0], self.solids, mobilised[0])];
         let mut inside = Vec::with_capacity(cells.len());
@@ -158,7 +158,18 @@ impl Column {
 
     /// Residuals and derivatives at `state`.
     pub fn linearise(&self, state: &[Unknowns], memory: &Memory, mobilised: &[Mobilised], linear: &mut Linear) {
-        let setting = Setting { laws: &self.laws, rate: memory.rate, mobilised: false };
+        let setting = Setting { laws: &self.laws, rate: memory.rate, mobilised: false, both_ways: false };
+        self.linearise_as(&setting, state, (memory, mobilised), linear);
+    }
+
+    /// As [`Self::linearise`], of what `setting` says.
+    pub(super) fn linearise_as(
+        &self,
+        setting: &Setting<'_>,
+        state: &[Unknowns],
+        (memory, mobilised): (&Memory, &[Mobilised]),
+        linear: &mut Linear,
+    ) {
         let n = self.cells();
         linear.residual.fill(0.0);
         linear.velocity = self.laws.fall().recip();
@@ -205,6 +216,15 @@ impl Linear {
             velocity: 1.0,
             mobilised: vec![Mobilised::default(); cells],
         }
+    }
+
+    /// Replaces the row of an unknown: it does not change.
+    pub(super) fn freeze(&mut self, cell: usize, row: usize) {
+        self.residual[SIZE * cell + row] = 0.0;
+        for block in &mut self.blocks[cell] {
+            block[row] = [0.0; SIZE];
+        }
+        self.blocks[cell][1][row][row] = 1.0;
     }
 
     /// The derivatives along the direction that `of` gives to each unknown of each cell.

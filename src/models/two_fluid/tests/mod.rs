@@ -2,6 +2,7 @@
 
 mod column;
 mod derivatives;
+mod growth;
 mod statements;
 mod steady;
 mod transient;
