@@ -247,6 +247,8 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
     if let Some(rate) = value(&quantity::TRANSPORT_RATE) {
         let star = value(&quantity::TRANSPORT_RATE_DIMENSIONLESS).map(|x| format!("  (Q* = {x})"));
         line("transport rate", format!("{rate}{}  {}", star.unwrap_or_default(), trust(&written.summary)));
+    } else if let Some(why) = results.reason(quantity::TRANSPORT_RATE.name) {
+        line("transport rate", format!("none: {why}"));
     }
     for group in HEADLINES {
         let given: Vec<_> =

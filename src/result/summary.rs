@@ -102,6 +102,13 @@ impl Results {
         self.0.iter().find(|(n, _)| n == name).and_then(|(_, r)| r.value)
     }
 
+    /// Why a result has no value, if it was reported without one.
+    #[must_use]
+    pub fn reason(&self, name: &str) -> Option<&str> {
+        let (_, reported) = self.0.iter().find(|(n, r)| n == name && r.value.is_none())?;
+        reported.reason.as_deref()
+    }
+
     /// All results in order.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Reported)> {
         self.0.iter().map(|(name, reported)| (name.as_str(), reported))

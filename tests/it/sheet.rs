@@ -58,15 +58,18 @@ fn reevaluate(profile: &Profile, grains: &Grains, sine: f64, bed: f64) -> Vec<(&
         Some((_, w)) => *w = w.max(error.abs()),
         None => worst.push((name, error.abs())),
     };
+    // Its lower and its upper side: velocity of the fluid and flux jump there.
     let interface = z.iter().position(|&x| (x - bed).abs() < 1e-12).unwrap();
+    let upper = z.iter().rposition(|&x| (x - bed).abs() < 1e-12).unwrap();
+    assert_eq!(upper, interface + 1);
     // Scales: stress of the interface over the grain diameter, shear rate of the mixture.
-    let tau_b = tf[interface + 1].unwrap() + r[interface + 1].unwrap();
+    let tau_b = tf[upper + 1].unwrap() + r[upper + 1].unwrap();
     for i in 2..z.len() - 1 {
         let dz = |f: &[Option<f64>]| derivative(f, i);
         let (Some(phi_i), Some(rate)) = (phi[i], dz(u)) else { continue };
         // The rows beside the interface are one-sided; under it the shear rate goes like the root of the depth, which is no
         // three points' parabola over the first cells, however small they are.
-        if (i as isize - interface as isize).abs() < 3 || (i < interface && bed - z[i] < 0.05 * grains.d) {
+        if (interface - 2..upper + 3).contains(&i) || (i < interface && bed - z[i] < 0.05 * grains.d) {
             continue;
         }
         let eps = 1.0 - phi_i;
@@ -77,7 +80,9 @@ fn reevaluate(profile: &Profile, grains: &Grains, sine: f64, bed: f64) -> Vec<(&
             let drag = RHO_F * phi_i / (grains.d * eps.powf(3.1))
                 * (0.3 * slip.abs() + 18.3 * ETA / (RHO_F * grains.d))
                 * slip;
-            let (f, big_r, s) = (dz(tf).unwrap(), dz(r).unwrap(), dz(tp).unwrap());
+            // That of the fluid is not defined in grains at rest, which carry the whole.
+            let f = dz(tf).or((tf[i].is_none() && phi_i >= 0.999 * grains.phi_max).then_some(0.0)).unwrap_or(f64::NAN);
+            let (big_r, s) = (dz(r).unwrap(), dz(tp).unwrap());
             let unit = tau_b / grains.d;
             // Near the corner at the yield level no derivative is smooth; below it U = 0 and the stress is what balances.
             let moving = phi_i < 0.97 * grains.phi_max;

@@ -6,11 +6,11 @@
 //! no layer balances. Creep rounds the fold by less than a thousandth of the drive.
 
 use super::bed::State;
+use super::cold::{CARRIED, Exact, Solved, deepen, direct};
 use super::column::{Floor, Setting};
 use super::flow::Flow;
 use super::layers::Layers;
 use super::newton::{Column, NotConverged};
-use super::solve::{BEYOND, CARRIED, Exact, GUESSES, ROUNDING, Solved, coarse, refine};
 use crate::closures::friction::FrictionLaw;
 
 /// Drives from which a flow is followed down to the wanted one, and up to it, over it.
@@ -160,53 +160,6 @@ fn thickness<F: FrictionLaw>(column: &Column<F>, state: &State) -> Option<f64> {
 /// Whether a solution with the exact yield moves less than one layer of grains, which is none.
 pub fn too_thin<F: FrictionLaw>(column: &Column<F>, state: &State) -> bool {
     column.floor == Floor::Yield && thickness(column, state).is_some_and(|thickness| thickness < ONE_GRAIN)
-}
-
-/// The exact yield from the first of the guesses that leads to a flow.
-///
-/// # Errors
-/// [`NotConverged`] if none does.
-fn direct<F: FrictionLaw>(
-    flow: Flow<F>,
-    setting: Setting,
-    cells: usize,
-    history: &mut Vec<f64>,
-) -> Result<Exact<F>, NotConverged> {
-    let mut last = NotConverged::new(f64::INFINITY, 0);
-    for guess in GUESSES {
-        let attempt = coarse(flow, setting, Some(guess), cells, history)
-            .and_then(|from| refine(flow, setting, cells, &from, history));
-        match attempt {
-            Ok((column, state, depth)) if state.rest >= 0.0 && column.carried(&state) >= CARRIED => {
-                return Ok((column, state, depth));
-            }
-            Ok(_) => {}
-            Err(failed) => last = failed,
-        }
-    }
-    Err(last)
-}
-
-/// The solution from `start` with the cut `least`, or the deeper one that a change of type down to `depth` needs.
-///
-/// # Errors
-/// As [`Column::newton`].
-fn deepen<F: FrictionLaw>(
-    column: &mut Column<F>,
-    least: f64,
-    mut depth: f64,
-    start: State,
-    history: &mut Vec<f64>,
-) -> Result<(State, f64), NotConverged> {
-    column.flow.cut = least.max(BEYOND * depth);
-    let mut state = column.newton(start, history)?;
-    depth = column.change_of_type(&state);
-    while BEYOND * depth > column.flow.cut * (1.0 + ROUNDING) {
-        column.flow.cut = BEYOND * depth;
-        state = column.newton(state, history)?;
-        depth = column.change_of_type(&state);
-    }
-    Ok((state, depth))
 }
 
 impl<F: FrictionLaw> Solved<F> {

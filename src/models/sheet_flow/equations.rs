@@ -63,7 +63,8 @@ pub fn equations<F: FrictionLaw>(sheet: &SheetFlow<F>) -> String {
          dilatancy     {spread}\n\
          inertia       I = t γ,  {time}\n\
          {posed}\n\
-         bottom        U = u_p = 0;  at h_p the stress, the velocity, φ and l_m are continuous, P_p = 0\n\
+         bottom        U = u_p = 0;  at h_p the stress, the velocity U, φ and l_m are continuous, P_p = 0\n\
+         interface     the slip U - u_p ends at h_p: u_f and the flux φ u_p jump to U and φ U, and are drawn so\n\
          method        {method}\n",
         h = n(sheet.height),
         d = n(sheet.d),

@@ -7,6 +7,7 @@
 
 mod bed;
 pub mod case;
+mod cold;
 mod column;
 mod continuation;
 mod equations;
@@ -38,10 +39,11 @@ pub use problem::SheetFlow;
 /// The solver in its own units: for `benches/sheet.rs` alone.
 #[doc(hidden)]
 pub mod bench {
+    pub use super::cold::REST;
     pub use super::column::Setting;
     pub use super::flow::Flow;
     pub use super::iteration::StepControl;
     pub use super::layers::Layers;
     pub use super::newton::{Column, NotConverged};
-    pub use super::solve::{REST, solve};
+    pub use super::solve::solve;
 }

@@ -5,7 +5,7 @@ use crate::closures::friction::FrictionLaw;
 use crate::closures::suspension::Settling;
 use crate::closures::threshold::{RANGE, soulsby};
 use crate::models::exact::outcome;
-use crate::result::{Failure, Outcome, Premise, Quantity, Results, Verdict, quantity as q};
+use crate::result::{Failure, Outcome, Premise, Quantity, Results, Status, Verdict, quantity as q};
 use crate::units::significant;
 
 /// What has no value without a layer, and is nothing where nothing moves.
@@ -89,6 +89,7 @@ impl<F: FrictionLaw> SheetFlow<F> {
         }
         results.set(&q::BED_LEVEL, self.level);
         results.set(&q::FLOW_HEIGHT, self.height);
-        outcome(None, Vec::new(), results, Vec::new(), Vec::new())
+        let outcome = outcome(None, Vec::new(), results, Vec::new(), Vec::new())?;
+        Ok(Outcome { status: Status::Done, ..outcome })
     }
 }

@@ -2,14 +2,16 @@
 
 use serde_json::json;
 
+use super::cold::Solved;
 use super::column::{Floor, Setting};
+use super::continuation::{Found, follow};
 use super::flow::Flow;
 use super::iteration::StepControl;
 use super::layers::Layers;
 use super::newton::{NotConverged, Reason};
 use super::problem::PseudoTime;
 use super::profile::profile;
-use super::solve::{self, Solved};
+use super::solve;
 use crate::closures::dilatancy::phi_i;
 use crate::closures::friction::{FrictionLaw, INERTIAL_RANGE};
 use crate::closures::lid::Lid;
@@ -52,7 +54,7 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
         return sheet.without_layer(shields, None);
     }
     let mut stopped = watch.see(&Snapshot { stage: "column", fraction: 0.0, quantity: None }).is_break();
-    let solved = match sheet.method {
+    let mut solved = match sheet.method {
         _ if stopped => Err(NotConverged::new(f64::INFINITY, 0)),
         SheetMethod::Newton => solve::solve(flow, setting, cells),
         SheetMethod::Iteration => {
@@ -68,6 +70,12 @@ pub fn run<F: FrictionLaw>(sheet: &SheetFlow<F>, cells: usize, watch: &mut dyn W
     };
     if stopped {
         return outcome(None, Vec::new(), Results::default(), Vec::new(), Vec::new());
+    }
+    // Where the iteration ends in packed grains, stronger flows say whether there is more.
+    if let Err(failed @ NotConverged { reason: Some(Reason::Jammed(_)), .. }) = &mut solved
+        && let Found::NoLayer(least) = follow(flow, setting, cells, &mut Vec::new())
+    {
+        failed.reason = Some(Reason::NoLayer(least));
     }
     if let Err(NotConverged { reason: Some(Reason::NoLayer(least)), .. }) = solved {
         return sheet.without_layer(shields, Some(least * shields));

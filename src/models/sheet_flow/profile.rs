@@ -3,8 +3,8 @@
 //! At the interface the slip ends: above it the grains move with the fluid. The velocity of the fluid and the flux jump there, and the profile
 //! has both values, on two levels that differ by round-off alone.
 
+use super::cold::Solved;
 use super::layers::Layers;
-use super::solve::Solved;
 use crate::closures::friction::FrictionLaw;
 use crate::models::sheet_flow::SheetFlow;
 use crate::result::{Profile, Quantity, TableError, quantity as q};

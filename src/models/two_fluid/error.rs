@@ -1,6 +1,5 @@
 //! What can be wrong with a flow of two fluids: its case, and its solution.
 
-use super::steady::WEAK as NEAR_REST;
 use crate::case::CaseFault;
 use crate::result::{Class, MethodError, codes};
 
@@ -80,6 +79,8 @@ pub enum TwoFluidError {
         iterations: usize,
         /// nominal Shields number
         shields: f64,
+        /// whether it is near the threshold of motion, where flows burst
+        weak: bool,
     },
     /// A two-fluid flow that no way of the method leads to.
     #[error(
@@ -92,6 +93,8 @@ pub enum TwoFluidError {
         iterations: usize,
         /// nominal Shields number
         shields: f64,
+        /// whether it is near the threshold of motion, where flows burst
+        weak: bool,
     },
     /// A flow in time that cannot go on.
     #[error(
@@ -132,7 +135,7 @@ impl MethodError for TwoFluidError {
             Self::NothingAtRest { .. } => "lower the slope, or take grains with more friction (grains.friction)",
             Self::Unbalanced { .. } => "fewer or coarser cells (grid.cells, grid.fine), or a larger regularisation.shear_rate",
             // Where flows are weak they are unstable and burst (docs/kinetic.md).
-            Self::NoSteadyFlow { shields, .. } | Self::DoesNotSettle { shields, .. } if *shields < NEAR_REST[1] => {
+            Self::NoSteadyFlow { weak: true, .. } | Self::DoesNotSettle { weak: true, .. } => {
                 "follow it in time (state = \"transient\"): near the threshold of motion the flow may have no steady state"
             }
             Self::NoSteadyFlow { .. } | Self::DoesNotSettle { .. } => {

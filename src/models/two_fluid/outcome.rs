@@ -68,8 +68,9 @@ pub fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Result<Outco
 /// Why there is no steady flow, as far as the method knows.
 fn no_steady_flow(flow: &TwoFluid, NotConverged { residual, iterations, left }: NotConverged) -> TwoFluidError {
     let shields = flow.shields();
+    let weak = shields < steady::WEAK[1];
     match left {
-        Left::Residual => TwoFluidError::NoSteadyFlow { residual, iterations, shields },
+        Left::Residual => TwoFluidError::NoSteadyFlow { residual, iterations, shields, weak },
         Left::Force(force) => TwoFluidError::Unbalanced {
             stress_pa: force * flow.stress_scale(),
             allowed_pa: steady::BALANCED * flow.stress_scale(),
@@ -78,7 +79,7 @@ fn no_steady_flow(flow: &TwoFluid, NotConverged { residual, iterations, left }: 
         },
         Left::March(step) => {
             let fall = (flow.rho_p / flow.rho_f).sqrt() * flow.d / flow.velocity_scale();
-            TwoFluidError::DoesNotSettle { step_s: step * fall, iterations, shields }
+            TwoFluidError::DoesNotSettle { step_s: step * fall, iterations, shields, weak }
         }
     }
 }
