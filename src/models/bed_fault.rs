@@ -47,6 +47,17 @@ pub enum BedFault {
     },
 }
 
+/// Depth over the thickness of the bed below which the height of both does not hold the flow.
+const SHALLOWEST: f64 = 1e-9;
+
+impl BedFault {
+    /// That the flow has no depth, if it has none beyond the round-off of its height.
+    #[must_use]
+    pub fn no_depth(depth: f64, thickness: f64) -> Option<Self> {
+        (depth <= SHALLOWEST * thickness).then_some(Self::NoDepth)
+    }
+}
+
 codes!(BedFault {
     Self::NoDepth => "no-depth",
     Self::Floating { .. } => "floating-grains",
@@ -62,7 +73,7 @@ impl CaseFault for BedFault {
 
     fn allowed(&self) -> Option<String> {
         match self {
-            Self::NoDepth => Some("more than 0 m".into()),
+            Self::NoDepth => Some(format!("more than {SHALLOWEST:e} of the thickness of the bed")),
             Self::Floating { fluid, .. } => Some(format!("more than {fluid} kg/m3")),
             Self::ThinnerThanAGrain { diameter, .. } => Some(format!("at least {diameter} m")),
             Self::FrictionFalls { mu_s, .. } => Some(format!("more than {mu_s}")),

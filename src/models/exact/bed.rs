@@ -286,8 +286,8 @@ pub(in crate::models) fn laminar_bed(
     let depth = faults.needed("flow.depth", flow.depth);
     let (level, phi, depth) = (level?, bed.phi().value(), depth?);
     let height = level + depth;
-    if depth <= 0.0 {
-        faults.push(("flow.depth", BedFault::NoDepth));
+    if let Some(fault) = BedFault::no_depth(depth, level) {
+        faults.push(("flow.depth", fault));
     }
     if level < grains.diameter {
         faults.push(("bed.thickness", BedFault::ThinnerThanAGrain { level, diameter: grains.diameter }));

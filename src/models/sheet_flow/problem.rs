@@ -127,8 +127,8 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
         let depth = faults.needed("flow.depth", scene.depth());
         let (thickness, depth) = (thickness?, depth?);
         let height = thickness + depth;
-        if depth <= 0.0 {
-            faults.push(("flow.depth", BedFault::NoDepth));
+        if let Some(fault) = BedFault::no_depth(depth, thickness) {
+            faults.push(("flow.depth", fault));
         }
         if thickness < grains.diameter {
             let fault = BedFault::ThinnerThanAGrain { level: thickness, diameter: grains.diameter };
