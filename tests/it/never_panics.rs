@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 use bedload::case::{Case, CaseError};
 use bedload::model::Problem;
 use bedload::plot::{Page, profile_figures, report_html};
-use bedload::result::{Cost, Figure, Outcome, Provenance, Summary};
+use bedload::result::quantity::TRANSPORT_RATE;
+use bedload::result::{Cost, Figure, Outcome, Provenance, Status, Summary};
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestRng, TestRunner};
 use serde_json::Map;
 
@@ -68,8 +69,15 @@ fn numbers_are_sound(problem: &Problem, outcome: &Outcome) -> Result<(), TestCas
     for validity in &outcome.validity {
         require!(validity.value.is_finite() && validity.z_m.is_none_or(f64::is_finite), "{validity:?}");
     }
-    // An impact or a trial happens at one place: it has numbers and no levels.
+    // An impact or a trial happens at one place: it has numbers and no levels. Nor has a sheet flow in which no layer moves: its rate is
+    // nothing below the threshold of motion, and empty with a reason above it.
     let Some(profile) = &outcome.profile else {
+        if problem.kind == "sheet-flow" && outcome.status == Status::Done {
+            let (name, rate) = (TRANSPORT_RATE.name, outcome.results.get(TRANSPORT_RATE.name));
+            let reason = outcome.results.reason(name).is_some_and(|why| why.starts_with("no layer of grains moves"));
+            require!(rate == Some(0.0) || reason, "no layer and a rate of {rate:?}");
+            return Ok(());
+        }
         require!(["impact", "trial"].contains(&problem.kind), "no profile");
         return Ok(());
     };

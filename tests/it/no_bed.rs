@@ -2,7 +2,7 @@
 
 use bedload::models::sheet_flow::SheetFlowError;
 use bedload::models::two_fluid::TwoFluidError;
-use bedload::result::{Outcome, Verdict, quantity as q};
+use bedload::result::{MethodError, Outcome, Verdict, quantity as q};
 
 use crate::support::{Scratch, solve};
 
@@ -151,4 +151,23 @@ fn the_hydraulic_diameter_of_a_lid_has_two_readings() {
     let ((two, slow), (four, fast)) = (drive("2h"), drive("4h"));
     assert!(four < two && fast > slow, "{two} {four} {slow} {fast}");
     assert!((0.02..0.2).contains(&(fast / slow - 1.0)), "{slow} {fast}");
+}
+
+#[test]
+fn failures_of_two_fluids_name_their_cause() {
+    let message = |error: TwoFluidError| format!("{error}; {}", error.hint());
+    // Far from the threshold none is blamed on it.
+    let far = TwoFluidError::NoSteadyFlow { residual: 0.1, iterations: 9, shields: 2.9, weak: false };
+    let near = TwoFluidError::NoSteadyFlow { residual: 0.1, iterations: 9, shields: 0.1, weak: true };
+    assert!(!message(far).contains("threshold") && message(near).contains("near the threshold of motion"));
+    // A residual of round-off is no reason, and none at all is no number.
+    let forces = TwoFluidError::Unbalanced { stress_pa: 1e-3, allowed_pa: 1e-6, iterations: 9, shields: 0.4 };
+    assert!(message(forces).contains("miss balance by 1.000e-3 Pa"));
+    let march = TwoFluidError::DoesNotSettle { step_s: 1e-5, iterations: 9, shields: 0.1, weak: true };
+    assert!(message(march).contains("last step was 1.000e-5 s"));
+    let stuck = |newton| TwoFluidError::StuckInTime { time_s: 21.5, step_s: 1e-9, residual: 0.2, newton };
+    assert!(message(stuck(true)).contains("Newton") && message(stuck(false)).contains("solver.tolerance, at 2.000e-1"));
+    // Below the threshold of the kinetic theory, as it is met in a run: never infinite.
+    let failure = solve("flow_theta06-two-fluid", &["flow.depth=", "flow.shields=0.12", "grid.cells=120"]).unwrap_err();
+    assert!(!failure.error.to_string().contains("inf"), "{}", failure.error);
 }

@@ -98,7 +98,8 @@ pub enum TwoFluidError {
     },
     /// A flow in time that cannot go on.
     #[error(
-        "stuck at t = {time_s:.6} s: no step is short enough, the last one was {step_s:.3e} s with the residual {residual:.3e}"
+        "stuck at t = {time_s:.6} s: no step is short enough; on the last one of {step_s:.3e} s {} {residual:.3e}",
+        if *newton { "Newton's method did not converge, with the smallest residual" } else { "the error stayed above solver.tolerance, at" }
     )]
     StuckInTime {
         /// simulated time \[s]
@@ -107,6 +108,8 @@ pub enum TwoFluidError {
         step_s: f64,
         /// residual of the step, or its error
         residual: f64,
+        /// whether Newton's method failed; else the error of the step is too large
+        newton: bool,
     },
 }
 
@@ -141,9 +144,10 @@ impl MethodError for TwoFluidError {
             Self::NoSteadyFlow { .. } | Self::DoesNotSettle { .. } => {
                 "other cells (grid.cells), or follow it in time (state = \"transient\")"
             }
-            Self::StuckInTime { .. } => {
-                "the flow until then is kept; take more cells (grid.cells) or a larger solver.tolerance"
+            Self::StuckInTime { newton: true, .. } => {
+                "the flow until then is kept; take other cells (grid.cells, grid.fine) or a larger regularisation.shear_rate"
             }
+            Self::StuckInTime { .. } => "the flow until then is kept; take a larger solver.tolerance, or more grid.cells",
         }
         .into()
     }

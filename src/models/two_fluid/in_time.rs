@@ -91,8 +91,8 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
     let outcome = finish(flow, &march, (&samples, track.as_ref()), status)?;
     match stuck {
         None => Ok(outcome),
-        Some(Stuck { time, dt, residual }) => {
-            let error = TwoFluidError::StuckInTime { time_s: time * unit, step_s: dt * unit, residual };
+        Some(Stuck { time, dt, residual, newton }) => {
+            let error = TwoFluidError::StuckInTime { time_s: time * unit, step_s: dt * unit, residual, newton };
             Err(Failure { error: error.into(), last: Some(Box::new(outcome)) })
         }
     }

@@ -62,6 +62,8 @@ pub struct Stuck {
     pub dt: f64,
     /// residual of Newton's method, or error of the step
     pub residual: f64,
+    /// whether Newton's method failed; else the error of the step is too large
+    pub newton: bool,
 }
 
 impl March {
@@ -101,7 +103,7 @@ impl March {
             self.column.laws.drive = drive(self.time + dt);
             let memory = self.memory(dt);
             let mut next = self.ahead(dt);
-            let residual = match self.column.newton(&mut next, &memory, &mut self.linear, control) {
+            let (residual, newton) = match self.column.newton(&mut next, &memory, &mut self.linear, control) {
                 Ok((made, _)) => {
                     self.iterations += made;
                     let error = self.error(dt, &next);
@@ -113,17 +115,17 @@ impl March {
                         return Ok(());
                     }
                     self.dt = dt * factor.min(0.8);
-                    error
+                    (error, false)
                 }
                 Err(NotConverged { residual, iterations, .. }) => {
                     self.iterations += iterations;
                     self.dt = dt * AFTER_FAILURE;
-                    residual
+                    (residual, true)
                 }
             };
             self.refused += 1;
             if self.dt < MIN_STEP * self.column.laws.fall() {
-                return Err(Stuck { time: self.time, dt: self.dt, residual });
+                return Err(Stuck { time: self.time, dt: self.dt, residual, newton });
             }
         }
     }
