@@ -11,6 +11,7 @@ mod path;
 mod run;
 mod study;
 mod table;
+mod tables;
 mod word;
 
 pub use comparison::{Compared, prepare_comparison, write_comparison};
@@ -19,9 +20,8 @@ pub use folder::{Folder, Mode};
 pub use grains::CHECKPOINT;
 pub use manual::Manual;
 pub use path::default_folder;
-pub use run::{
-    Written, fingerprint, read_field, read_run, read_series, redraw, write_failure, write_outcome, write_running,
-};
+pub use run::{Written, fingerprint, read_run, redraw, write_failure, write_outcome, write_running};
 pub use study::StudyFolder;
 pub use table::TableFile;
+pub use tables::{read_field, read_series};
 pub use word::word;

@@ -15,6 +15,7 @@ use super::grains::{ANIMATION, read_animation};
 use super::lock::Site;
 use super::ours::{FIGURES, WORDS};
 use super::path::resolve;
+use super::tables::read_field;
 use crate::plot::{self, Page};
 use crate::result::{
     Animation, Axis, Cost, ErrorReport, Failure, Field, Figure, Head, Outcome, Profile, Provenance, Results, Series,
@@ -341,12 +342,6 @@ pub fn read_run(folder: &Path) -> Result<(Summary, Option<Profile>), OutputError
     Ok((summary, profile))
 }
 
-/// The residuals or the time series of a run, if its folder has them.
-#[must_use]
-pub fn read_series(folder: &Path) -> Option<Series> {
-    Series::read_csv(BufReader::new(fs::File::open(folder.join("series.csv")).ok()?)).ok()
-}
-
 fn read_text(folder: &Path, name: &str) -> Result<String, OutputError> {
     let wrong = |error: io::Error| OutputError::NotARun { folder: folder.into(), reason: format!("{name}: {error}") };
     fs::read_to_string(folder.join(name)).map_err(wrong)
@@ -391,14 +386,4 @@ pub fn redraw(folder: &Path, png: bool) -> Result<Written, OutputError> {
     };
     let figures = draw((folder, folder), &summary, &drawn, &words, &text, png)?;
     Ok(Written { summary, figures, kept: false })
-}
-
-/// The field of a run over its section, if its folder has one.
-///
-/// # Errors
-/// [`OutputError::NotARun`] if that file is none.
-pub fn read_field(folder: &Path) -> Result<Option<Field>, OutputError> {
-    let Ok(file) = fs::File::open(folder.join("section.csv")) else { return Ok(None) };
-    let wrong = |error| OutputError::NotARun { folder: folder.into(), reason: format!("section.csv: {error}") };
-    Field::read(BufReader::new(file)).map_err(wrong)
 }
