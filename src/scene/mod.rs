@@ -77,6 +77,7 @@ impl Grains {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "scene", rename_all = "kebab-case")]
 #[non_exhaustive]
+#[expect(clippy::large_enum_variant, reason = "a run has one scene")]
 pub enum Scene {
     /// over a bed of grains
     Bed(BedScene),

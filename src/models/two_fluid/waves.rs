@@ -41,7 +41,7 @@ impl Track {
     /// The time of the next phase to be kept.
     fn next(&self) -> Option<f64> {
         let last = self.whole.checked_sub(1)? as f64;
-        (self.phases.len() < 4).then(|| (last + 0.25 * self.phases.len() as f64) * self.period)
+        (self.phases.len() < 4).then_some((last + 0.25 * self.phases.len() as f64) * self.period)
     }
 
     /// Takes the step that was made.
