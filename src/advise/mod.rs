@@ -6,14 +6,18 @@
 //! Thresholds are of the papers that the sources name, or measured here (docs/coupled.md).
 
 mod laminar;
+mod subject;
 mod turbulent;
 
-use crate::case::{Case, CaseError};
-use crate::model::{self, Checked, Flow, ModelInfo, Offer, OwnCase, Registry, TermTest};
+use subject::Subject;
+
+use std::time::Instant;
+
+use crate::case::CaseError;
+use crate::model::{Flow, ModelInfo, Offer, OwnCase, Registry};
 use crate::result::Context;
 
-use crate::result::quantity as q;
-use crate::result::{Failure, Results, SolveError, Verdict, codes};
+use crate::result::{Failure, SolveError, Verdict, codes};
 use crate::units::significant;
 
 /// A number that describes the scene.
@@ -40,6 +44,8 @@ pub struct Term {
     pub because: String,
     /// where the threshold comes from
     pub source: &'static str,
+    /// what is changed in the case to drop it; nothing where a threshold decides
+    change: Vec<String>,
 }
 
 /// The least model that serves.
@@ -51,8 +57,34 @@ pub struct Least {
     pub stochastic: bool,
     /// why this one
     pub because: String,
+    /// what an answer costs
+    pub cost: Cost,
+    /// how far its transport rate lies from what is known better, in words with the source
+    pub off: &'static str,
+    /// how far its numbers lie from those on a mesh much finer, where there is one
+    pub mesh: Option<MeshError>,
     /// its case for this scene, every default filled in; `None` where the case that was given is of that model already
     pub case: Option<String>,
+}
+
+/// What an answer costs, on one thread.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Cost {
+    /// time that it took \[s]
+    Took(f64),
+    /// time that it takes \[s], from its number of steps
+    Takes(f64),
+    /// not known
+    Unknown,
+}
+
+/// How far the transport rate lies from that of the finest setting of the model.
+#[derive(Clone, Debug)]
+pub struct MeshError {
+    /// relative error of the transport rate
+    pub share: f64,
+    /// the finest setting, in words
+    pub against: String,
 }
 
 /// What is reported of a scene.
@@ -67,6 +99,8 @@ pub struct Advice {
     pub of: &'static str,
     /// its terms
     pub terms: Vec<Term>,
+    /// relative change of the transport rate without any of the terms that can go, where those are several
+    pub together: Option<f64>,
 }
 
 /// Why there is no advice.
@@ -184,20 +218,21 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
             return Err(AdviseError::NoBed { share: bed.weight() });
         }
     };
-    let mut terms = Vec::new();
+    let mut terms: Vec<Term> = Vec::new();
     let own = if alone { Vec::new() } else { problem.solver().terms() };
-    for term in own {
-        let Some(assessed) = subject.assess(&term) else { continue };
-        if let Some(drop) = term.dropped.filter(|_| !assessed.keep) {
+    terms.extend(own.iter().filter_map(|term| subject.assess(term)));
+    let mut together = subject.together(&mut terms);
+    for term in &own {
+        let goes = terms.iter().any(|assessed| assessed.what == term.what && !assessed.keep);
+        if let Some(drop) = term.dropped.filter(|_| goes) {
             drop(&mut flow);
         }
-        terms.push(assessed);
     }
     let offers = registry.entries().filter_map(|entry| Some((entry.info, entry.offer(&flow, tolerance)?)));
     let mut offers: Vec<(ModelInfo, Offer)> = offers.collect();
     offers.sort_by_key(|(_, offer)| offer.effort);
     let mut refused = None;
-    for (info, Offer { because, case: own, .. }) in offers {
+    for (info, Offer { because, case: own, off, .. }) in offers {
         let same = !alone && info.name == case.model && problem.solver().flow().is_ok();
         let drops =
             matches!(&own, OwnCase::Scene(changes) if !changes.is_empty()) && terms.iter().any(|term| !term.keep);
@@ -215,35 +250,53 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
                 continue;
             }
         };
+        let (mut cost, mut mesh) = (found.solver().takes_s().map_or(Cost::Unknown, Cost::Takes), None);
         // A continuum takes milliseconds: what is advised has a solution, and none of its premises is broken.
         if !stochastic {
+            let clock = Instant::now();
             match Context::quiet(|context| found.run(context)) {
                 Err(failure) => {
                     refused = refused.or(Some(AdviseError::Fails { kind, error: failure.error }));
                     continue;
                 }
                 Ok(outcome) if outcome.regime.iter().any(|premise| premise.verdict == Verdict::Broken) => continue,
-                Ok(_) => {}
+                Ok(outcome) => {
+                    cost = Cost::Took(clock.elapsed().as_secs_f64());
+                    let subject = Subject {
+                        registry: registry.clone().choosing(kind),
+                        case: own.as_ref().unwrap_or(&case),
+                        tolerance,
+                    };
+                    mesh = subject.mesh_error(&outcome.results, found.solver().study().finest);
+                }
             }
         }
         let Some(own) = own else {
             return Ok(Advice {
                 numbers,
-                least: Least { kind, stochastic, because, case: None },
+                least: Least { kind, stochastic, because, cost, off, mesh, case: None },
                 of: case.model,
                 terms,
+                together,
             });
         };
         let of = if alone { kind } else { case.model };
         if alone {
             let subject = Subject { registry: registry.clone().choosing(kind), case: &own, tolerance };
             terms.extend(found.solver().terms().iter().filter_map(|term| subject.assess(term)));
+            together = subject.together(&mut terms);
         }
         let resolved = own.resolved();
         // The claims of the case are not those of another model.
         let text = resolved.split("\n[[").next().unwrap_or(&resolved).trim_end();
         let case = Some(format!("{text}\n"));
-        return Ok(Advice { numbers, least: Least { kind, stochastic, because, case }, of, terms });
+        return Ok(Advice {
+            numbers,
+            least: Least { kind, stochastic, because, cost, off, mesh, case },
+            of,
+            terms,
+            together,
+        });
     }
     Err(refused.unwrap_or(AdviseError::NoneServes { tolerance }))
 }
@@ -268,65 +321,7 @@ impl Advice {
     }
 }
 
-/// The case that is advised on.
-struct Subject<'a> {
-    /// where the case is that of its model
-    registry: Registry,
-    case: &'a Case,
-    tolerance: f64,
-}
-
-impl Subject<'_> {
-    fn solve(&self, change: &[String]) -> Option<Results> {
-        let Case { name, source, overrides, .. } = self.case;
-        let overrides = [overrides, change].concat();
-        let (_, problem) = self.registry.parse(name, source, self.case.text().to_owned(), &overrides).ok()?;
-        Context::quiet(|context| problem.run(context)).ok().map(|outcome| outcome.results)
-    }
-
-    /// The case of the model `kind` for this scene.
-    fn of(&self, kind: &str, own: &OwnCase) -> Result<Checked, CaseError> {
-        let registry = self.registry.clone().choosing(kind);
-        match own {
-            OwnCase::Scene(changes) => {
-                let overrides = [self.case.overrides_of_the_flow(), changes.clone()].concat();
-                registry.parse(&self.case.name, &self.case.source, self.case.text().to_owned(), &overrides)
-            }
-            OwnCase::Other(text) => registry.parse(&self.case.name, "advised", text.clone(), &[]),
-        }
-    }
-
-    /// Whether the scene needs a term: by a threshold, or by solving the case as it stands and without the term.
-    fn assess(&self, term: &model::Term) -> Option<Term> {
-        let model::Term { what, source, .. } = *term;
-        let (change, left, free) = match &term.test {
-            TermTest::Known { keep, because } => {
-                return Some(Term { what, keep: *keep, error: None, because: because.clone(), source });
-            }
-            TermTest::Solve { change, left, free } => (change, left, free),
-        };
-        let rate = |results: &Results| results.get(q::TRANSPORT_RATE.name);
-        let with = rate(&self.solve(&[])?)?;
-        let (error, keep) = match self.solve(change).as_ref().and_then(rate) {
-            Some(without) if with != 0.0 => {
-                let error = (without / with - 1.0).abs();
-                (Some(error), error > self.tolerance)
-            }
-            // Nothing to compare, or no flow without it.
-            Some(without) => (None, without != with),
-            None => (None, true),
-        };
-        let because = match error {
-            Some(error) => format!("{left} changes the transport rate by {}", share(error)),
-            None if keep => format!("{left} leaves no such flow"),
-            None => format!("{left} changes nothing"),
-        };
-        let because = if *free { format!("{because}, and is no slower") } else { because };
-        Some(Term { what, keep: keep && !free, error, because, source })
-    }
-}
-
 /// `2.1 %`, or `3e-5` where a per cent says nothing.
-fn share(error: f64) -> String {
+pub(crate) fn share(error: f64) -> String {
     if error >= 1e-4 { format!("{} %", significant(100.0 * error, 2)) } else { format!("{error:.0e}") }
 }

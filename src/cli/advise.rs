@@ -7,7 +7,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::{Answers, CaseArgs, CliError, Verb, say, word};
-use crate::advise;
+use crate::advise::{self, Cost, Least};
 use crate::model::Registry;
 use crate::units::significant;
 
@@ -56,13 +56,23 @@ impl Verb for Advise {
                 "status": "done",
                 "model": least.kind,
                 "because": least.because,
+                "cost_s": match least.cost {
+                    Cost::Took(s) | Cost::Takes(s) => Some(s),
+                    Cost::Unknown => None,
+                },
+                "cost_measured": matches!(least.cost, Cost::Took(_)),
+                "error_of_model": least.off,
+                "error_of_mesh": least.mesh.as_ref().map(|mesh| mesh.share),
+                "mesh_against": least.mesh.as_ref().map(|mesh| &mesh.against),
                 "of": advice.of,
                 "numbers": numbers.collect::<Vec<_>>(),
                 "terms": terms.collect::<Vec<_>>(),
+                "dropped_together": advice.together,
                 "written": written,
             }))?);
         }
-        let mut text = format!("{}: {}\n  {}\n\n", self.case.case, advice.least.kind, advice.least.because);
+        let mut text = format!("{}: {}\n  {}\n", self.case.case, advice.least.kind, advice.least.because);
+        text += &worth(&advice.least);
         for number in &advice.numbers {
             text += &format!("  {:<36} {:>9}  {}\n", number.name, significant(number.value, 3), number.says);
         }
@@ -74,6 +84,9 @@ impl Verb for Advise {
             let verdict = if term.keep { "keep" } else { "drop" };
             text += &format!("  {verdict} {:<36} {} ({})\n", term.what, term.because, term.source);
         }
+        if let Some(error) = advice.together {
+            text += &format!("  all that can go change the transport rate by {} together\n", advise::share(error));
+        }
         text += &match written {
             Some(file) => format!("\nwrote {file}; next: bedload run {}\n", word(&file)),
             None if self.write.is_some() => "\nthe case that was given is of that model: nothing was written\n".into(),
@@ -81,6 +94,31 @@ impl Verb for Advise {
         };
         Ok(say(&text)?)
     }
+}
+
+/// A time for readers: milliseconds to hours.
+fn time(s: f64) -> String {
+    match s {
+        s if s >= 7200.0 => format!("{} h", significant(s / 3600.0, 2)),
+        s if s >= 120.0 => format!("{} min", significant(s / 60.0, 2)),
+        s if s >= 1.0 => format!("{} s", significant(s, 2)),
+        _ => format!("{} ms", significant(1e3 * s, 2)),
+    }
+}
+
+/// What the advised model costs and how far it is off.
+fn worth(least: &Least) -> String {
+    let cost = match least.cost {
+        Cost::Took(s) => format!("{} to solve", time(s)),
+        Cost::Takes(s) => format!("about {} on one thread", time(s)),
+        Cost::Unknown => "not known beforehand".into(),
+    };
+    let numbers = match &least.mesh {
+        Some(mesh) => format!("{} of the transport rate against {}", advise::share(mesh.share), mesh.against),
+        None if least.stochastic => "the standard error of its means, which its results state".into(),
+        None => "round-off".into(),
+    };
+    format!("  cost              {cost}\n  error of model    {}\n  error of numbers  {numbers}\n\n", least.off)
 }
 
 impl Advise {

@@ -16,7 +16,7 @@ use crate::model::Problem;
 use crate::model::Registry;
 use crate::output::{Compared, prepare_comparison, read_run, write_comparison};
 use crate::result::Context;
-use crate::result::{Cost, ErrorReport, Provenance, Status, quantity};
+use crate::result::{Cost, ErrorReport, Provenance, Status, Verdict, quantity};
 use crate::runtime::cost::peak_memory_mb;
 use crate::units::significant;
 
@@ -95,7 +95,10 @@ impl Verb for Compare {
         let start = Instant::now();
         let given = self.subjects.len() * self.model.len().max(1) + self.data.len();
         if given < 2 {
-            return Err(CompareError::TooFew { given }.into());
+            let chosen = self.subjects.first().filter(|_| self.model.is_empty());
+            let refused = chosen.and_then(|case| registry.load(case, &[]).err());
+            let models = refused.as_ref().and_then(|error| Some(error.choices()?.models.to_vec()));
+            return Err(CompareError::TooFew { given, models: models.unwrap_or_default() }.into());
         }
         let request = self.request();
         let (loaded, names) = self.load(registry)?;
@@ -236,8 +239,11 @@ impl Compare {
         if left > 0 {
             line("", format!("and {left} more in norms.csv"));
         }
-        if let Some(inputs) = comparison.inputs_that_differ() {
-            line("inputs differ", format!("{inputs} (see the report)"));
+        if let Some(flows) = comparison.flows_that_differ() {
+            line("flow", flows);
+        }
+        if let Some(models) = comparison.models_that_differ() {
+            line("solved with", models);
         }
         let warnings = comparison.warnings();
         if let Some(first) = warnings.first() {
@@ -255,8 +261,23 @@ impl Compare {
         }
         let reference = comparison.subjects.first().map_or("", |s| s.name.as_str());
         let units = if comparison.scaled { "scaled" } else { "in SI" };
-        format!("{reference} is the reference; {}, {units}\n{}\n", comparison.align.datum(), lines.join("\n"))
+        let broken = broken(&comparison.subjects).map(|line| line + "\n").unwrap_or_default();
+        format!("{broken}{reference} is the reference; {}, {units}\n{}\n", comparison.align.datum(), lines.join("\n"))
     }
+}
+
+/// The premise that is broken, before everything else.
+fn broken(subjects: &[Subject]) -> Option<String> {
+    let of = |subject: &'_ Subject| subject.regime.iter().filter(|premise| premise.verdict == Verdict::Broken).count();
+    let more = match subjects.iter().map(of).sum::<usize>() {
+        0 | 1 => String::new(),
+        n => format!(" ({} more in the report)", n - 1),
+    };
+    let first = subjects.iter().find_map(|subject| {
+        let premise = subject.regime.iter().find(|premise| premise.verdict == Verdict::Broken)?;
+        Some((&subject.name, premise))
+    });
+    first.map(|(name, premise)| format!("broken premise of {name}: {}: {}{more}", premise.line(), premise.why))
 }
 
 /// Runs a case. A failure ends the comparison, for what is left of it would not be what was asked for.
@@ -310,10 +331,14 @@ fn headline(comparison: &Comparison, subject: usize) -> String {
         parts.push(format!("{} {l2}at most {largest} (z {at}) over {} levels", row.quantity.title, d.levels));
         parts.extend(row.sigmas.map(|s| format!("{} sigma", significant(s.rms, 3))));
     }
-    let rate = comparison.numbers.iter().find(|n| n.quantity.name == quantity::TRANSPORT_RATE.name);
-    if let Some(difference) = rate.and_then(|n| n.differences.get(subject).copied().flatten()) {
+    // Of sections there is the flux alone.
+    let rate = [&quantity::TRANSPORT_RATE, &quantity::BED_FLUX].into_iter().find_map(|rate| {
+        let row = comparison.numbers.iter().find(|n| n.quantity.name == rate.name)?;
+        Some((rate, row.differences.get(subject).copied().flatten()?))
+    });
+    if let Some((rate, difference)) = rate {
         let sign = if difference > 0.0 { "+" } else { "" };
-        parts.push(format!("{} {sign}{}", quantity::TRANSPORT_RATE.title, percent(difference)));
+        parts.push(format!("{} {sign}{}", rate.title, percent(difference)));
     }
     if parts.is_empty() { "no common elevation".into() } else { parts.join("; ") }
 }

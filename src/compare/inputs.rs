@@ -46,13 +46,17 @@ impl Stated {
         if self.model == other.model {
             return self.inputs.clone();
         }
-        let own = self.inputs.iter().filter(|(path, _)| {
-            let of_the_flow = OF_THE_FLOW.iter().any(|table| path.starts_with(table));
-            !of_the_flow && !path.starts_with("model.") && other.inputs.contains_key(*path)
-        });
+        let own = self
+            .inputs
+            .iter()
+            .filter(|(path, _)| !of_the_flow(path) && !path.starts_with("model.") && other.inputs.contains_key(*path));
         let own = own.map(|(path, value)| (path.clone(), value.clone()));
         self.scene.inputs.clone().into_iter().chain(own).collect()
     }
+}
+
+fn of_the_flow(path: &str) -> bool {
+    OF_THE_FLOW.iter().any(|table| path.starts_with(table))
 }
 
 /// An input that is not the same in all subjects.
@@ -120,14 +124,42 @@ impl Subject {
 }
 
 impl Comparison {
-    /// What is not the same in all subjects, as one sentence; `None` where nothing is known to differ.
+    /// In what the flows of the subjects differ, with the values in SI, in one sentence; that they do not; `None` where nothing is
+    /// known of them.
     #[must_use]
-    pub fn inputs_that_differ(&self) -> Option<String> {
+    pub fn flows_that_differ(&self) -> Option<String> {
+        let known = self.subjects.iter().filter(|subject| subject.stated.is_some()).count();
+        let found = self.named(&|path| of_the_flow(path));
+        found.or_else(|| (known > 1).then(|| "the same in all".to_owned()))
+    }
+
+    /// In what the models and their numerics differ, with the values in SI; `None` where nothing is known to.
+    #[must_use]
+    pub fn models_that_differ(&self) -> Option<String> {
+        self.named(&|path| !of_the_flow(path))
+    }
+
+    /// The first inputs of a kind that differ, with their values.
+    fn named(&self, of: &dyn Fn(&str) -> bool) -> Option<String> {
         const NAMED: usize = 4;
-        let named: Vec<&str> = self.inputs.iter().take(NAMED).map(|row| row.path.as_str()).collect();
-        let more = self.inputs.len().saturating_sub(NAMED);
+        const VALUES: usize = 3;
+        let short = |value: &Option<Value>| match value {
+            None => "none".to_owned(),
+            Some(Value::Number(number)) if number.is_f64() => {
+                number.as_f64().map_or_else(String::new, |x| significant(x, 4))
+            }
+            Some(Value::String(text)) => text.clone(),
+            Some(other) => other.to_string(),
+        };
+        let rows: Vec<&InputRow> = self.inputs.iter().filter(|row| of(&row.path)).collect();
+        let one = |row: &&InputRow| match row.values.len() {
+            n if n > VALUES => row.path.clone(),
+            _ => format!("{} {}", row.path, row.values.iter().map(short).collect::<Vec<_>>().join(" | ")),
+        };
+        let named: Vec<String> = rows.iter().take(NAMED).map(one).collect();
+        let more = rows.len().saturating_sub(NAMED);
         let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
-        (!named.is_empty()).then(|| format!("{}{rest}", named.join(", ")))
+        (!named.is_empty()).then(|| format!("{}{rest}", named.join("; ")))
     }
 
     /// That the subjects do not hold the same amount of sediment, with the amounts.

@@ -7,6 +7,7 @@
 //! The first subject is the reference. [`norms`] says what is measured, [`frame`] in which datum and units.
 
 pub mod data;
+mod error;
 pub mod frame;
 mod inputs;
 pub mod norms;
@@ -19,6 +20,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 pub use data::{DataError, DataFault};
+pub use error::CompareError;
 pub use frame::{Align, Scales, View, scaled_unit};
 pub use inputs::{InputRow, Stated, of_one_kind};
 pub use norms::{Deviation, Side, Sigmas};
@@ -30,7 +32,8 @@ use crate::plot::{Trace, shared_figures};
 use crate::result::Figure;
 use crate::result::Premise;
 use crate::result::quantity::{self, COLUMNS, Quantity};
-use crate::result::{Outcome, Profile, Results, Status, Summary, TableError, Validity, codes};
+use crate::result::{Outcome, Profile, Results, Status, Summary, Validity};
+use error::no_rate;
 
 /// What a subject is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -76,118 +79,6 @@ pub struct Subject {
     pub stated: Option<Stated>,
 }
 
-/// Why there is nothing to compare, or not like this.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum CompareError {
-    /// a profile CSV that cannot be used
-    #[error(transparent)]
-    Data(#[from] DataError),
-    /// fewer than two
-    #[error("a comparison takes at least two, {given} given")]
-    TooFew {
-        /// how many were given
-        given: usize,
-    },
-    /// a run that is not done
-    #[error("{subject} is {status}, not done")]
-    NotDone {
-        /// the run
-        subject: String,
-        /// its state
-        status: Status,
-    },
-    /// a run without a profile
-    #[error("{subject} has no profile")]
-    NoProfile {
-        /// the run
-        subject: String,
-    },
-    /// a number by which the frame is defined
-    #[error("{subject} does not report {}, which {needed_by} needs", quantity.name)]
-    NoNumber {
-        /// which one
-        subject: String,
-        /// the number
-        quantity: &'static Quantity,
-        /// the option that needs it
-        needed_by: &'static str,
-    },
-    /// a scale that a shared column needs
-    #[error("{subject} does not have {missing}, by which --scale divides {column}")]
-    NoScale {
-        /// which one
-        subject: String,
-        /// the column
-        column: &'static str,
-        /// the scale
-        missing: &'static str,
-    },
-    /// a value that overflows when it is divided
-    #[error("{subject}: {error}")]
-    NotFinite {
-        /// which one
-        subject: String,
-        /// column and row
-        #[source]
-        error: TableError,
-    },
-    /// flows that have nothing to do with each other
-    #[error("{other} is a scene of the kind {other_kind}, {reference} one of the kind {kind}")]
-    DifferentKinds {
-        /// the first
-        reference: String,
-        /// its kind
-        kind: String,
-        /// the other
-        other: String,
-        /// its kind
-        other_kind: String,
-    },
-    /// neither a column at common elevations nor a number
-    #[error("{reference} shares no column at a common elevation and no number with any other")]
-    NothingShared {
-        /// the reference
-        reference: String,
-    },
-}
-
-codes!(CompareError {
-    Self::TooFew { .. } => "too-few",
-    Self::NotDone { .. } => "not-done",
-    Self::NoProfile { .. } => "no-profile",
-    Self::NoNumber { .. } => "no-number",
-    Self::NoScale { .. } => "no-scale",
-    Self::NotFinite { .. } => "not-finite",
-    Self::DifferentKinds { .. } => "different-kinds",
-    Self::NothingShared { .. } => "nothing-shared",
-} nested {
-    Self::Data(error) => error.fault.code(),
-});
-
-impl CompareError {
-    /// What to do about it.
-    #[must_use]
-    pub fn hint(&self) -> String {
-        match self {
-            Self::Data(error) => error.fault.hint(),
-            Self::TooFew { .. } => "name two cases or run folders, or one and a profile with --data FILE.csv".into(),
-            Self::NotDone { .. } => "finish it with `bedload run`, or compare its case".into(),
-            Self::NoProfile { .. } => "run its case again".into(),
-            Self::NoNumber { quantity, needed_by, .. } => {
-                format!("leave {needed_by} out; data state it in a comment: # {} = ...", quantity.name)
-            }
-            Self::NoScale { .. } => "leave --scale out; data state mean_velocity_m_s in a comment".into(),
-            Self::NotFinite { .. } => "check the scales".into(),
-            Self::DifferentKinds { .. } => {
-                "compare flows over a bed with each other, channels with channels, grains alone with grains alone"
-                    .into()
-            }
-            Self::NothingShared { .. } => "compare profiles with common columns whose elevations overlap".into(),
-        }
-    }
-}
-
 impl Subject {
     /// A case that has been run: `source` as the user named it, `solve_s` what its solver took \[s].
     ///
@@ -200,7 +91,8 @@ impl Subject {
         outcome: Outcome,
         solve_s: f64,
     ) -> Result<Self, CompareError> {
-        let profile = outcome.profile.ok_or_else(|| CompareError::NoProfile { subject: source.into() })?;
+        let none = |results: &Results| CompareError::NoProfile { subject: source.into(), reason: no_rate(results) };
+        let profile = outcome.profile.ok_or_else(|| none(&outcome.results))?;
         let Outcome { results, regime, validity, work, .. } = outcome;
         let (name, source) = (name.into(), source.into());
         let (kind, notes) = (Kind::Case, Vec::new());
@@ -231,7 +123,8 @@ impl Subject {
         if summary.status != Status::Done {
             return Err(CompareError::NotDone { subject: source.into(), status: summary.status });
         }
-        let profile = profile.ok_or_else(|| CompareError::NoProfile { subject: source.into() })?;
+        let none = || CompareError::NoProfile { subject: source.into(), reason: no_rate(&summary.results) };
+        let profile = profile.ok_or_else(none)?;
         let Summary { results, regime, validity, case: name, model: label, scene, .. } = summary;
         let (kind, source, notes) = (Kind::Run, source.into(), Vec::new());
         let errors = profile.standard_errors();
@@ -283,9 +176,11 @@ pub struct Comparison {
 /// # Errors
 /// [`CompareError`]: fewer than two, nothing shared, or a number missing that the frame needs.
 pub fn compare(mut subjects: Vec<Subject>, align: Align, scaled: bool) -> Result<Comparison, CompareError> {
-    let Some((reference, others)) = subjects.split_first() else { return Err(CompareError::TooFew { given: 0 }) };
+    let Some((reference, others)) = subjects.split_first() else {
+        return Err(CompareError::TooFew { given: 0, models: Vec::new() });
+    };
     if others.is_empty() {
-        return Err(CompareError::TooFew { given: 1 });
+        return Err(CompareError::TooFew { given: 1, models: Vec::new() });
     }
     let shared: Vec<&'static Quantity> = COLUMNS
         .iter()

@@ -181,6 +181,11 @@ pub trait Solve: Debug + Send + Sync + 'static {
         Vec::new()
     }
 
+    /// How long it takes on one thread \[s], about, where that is minutes and can be told beforehand.
+    fn takes_s(&self) -> Option<f64> {
+        None
+    }
+
     /// What in the model that flow may not need.
     fn terms(&self) -> Vec<Term> {
         Vec::new()

@@ -48,6 +48,8 @@ pub struct LaminarScene {
     pub two_velocities: bool,
     /// Carman-Kozeny constant of the drag between the phases; `None` where one velocity serves
     pub k_ck: Option<f64>,
+    /// whether the side walls of a section bound the flow
+    pub walls: bool,
 }
 
 /// Slopes, densities of grains over that of the fluid, depths over d at which the continua were measured against grains.
@@ -170,6 +172,8 @@ pub struct Offer {
     pub effort: Effort,
     /// why this model serves
     pub because: String,
+    /// how far its transport rate lies from what is known better, in words with the source
+    pub off: &'static str,
     /// its case
     pub case: OwnCase,
 }

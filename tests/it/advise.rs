@@ -43,6 +43,81 @@ fn terms_are_assessed_by_what_dropping_them_costs() {
 }
 
 #[test]
+fn side_walls_of_a_section_decide_and_the_section_is_advised() {
+    let scratch = Scratch::new();
+    let found = scratch.bedload(["advise", "section_2d_square_bed", "--json"]).exits(0).json();
+    assert_eq!(found["model"], "duct-bed", "{found}");
+    // Fluxes per width of both runs, each on its own.
+    let flux = |set: &[&str]| {
+        let line = [&["run", "section_2d_square_bed", "--force", "--json"], set].concat();
+        scratch.bedload(line).exits(0).json()["results"]["bed_flux_m3_s"]["value"].as_f64().unwrap()
+    };
+    let (walls, planes) = (flux(&[]), flux(&["--set", "flow.section=", "--set", "grid.yield_row=false"]));
+    let term = &found["terms"][0];
+    assert_eq!((&term["what"], &term["keep"]), (&"side walls".into(), &true.into()));
+    let error = term["error"].as_f64().unwrap();
+    assert!((error - (planes / walls - 1.0)).abs() < 1e-9, "{error} {planes} {walls}");
+    // The whole duct has no exact yield of its own: its section has.
+    let whole = scratch.bedload(["advise", "section_3d_square_bed", "--json"]).exits(0).json();
+    let terms = whole["terms"].as_array().unwrap();
+    assert!(terms.iter().all(|term| !term["because"].as_str().unwrap().contains("leaves no such flow")), "{whole}");
+}
+
+#[test]
+fn what_is_advised_has_its_cost_and_its_error() {
+    let scratch = Scratch::new();
+    let advise = |line: &[&str]| scratch.bedload([&["advise"], line, &["--json"]].concat()).exits(0).json();
+    for (case, tolerance) in [
+        ("bed_ouriemi-laminar", "0.05"),
+        ("laminar_1d_muiv", "0.05"),
+        ("sheet_1d_sumer91", "0.05"),
+        ("flow_theta06-two-fluid", "0.2"),
+        ("section_2d_square_bed", "0.05"),
+    ] {
+        let found = advise(&[case, "--tolerance", tolerance]);
+        let cost = found["cost_s"].as_f64().unwrap();
+        assert!(cost > 0.0 && found["cost_measured"] == true, "{case}: {found}");
+        assert!(!found["error_of_model"].as_str().unwrap().is_empty(), "{case}");
+        let closed = found["model"] == "laminar-exact";
+        // On a mesh that is coarser than the finest there is an error, and a small one.
+        let mesh = found["error_of_mesh"].as_f64();
+        assert!(if closed { mesh.is_none() } else { mesh.is_some_and(|e| e > 0.0 && e < 2e-2) }, "{case}: {found}");
+    }
+    // It is the one that `converge` finds.
+    let over = ["converge", "flow_theta06", "--model", "two-fluid", "--over", "mesh", "--json"];
+    let study = scratch.bedload(over).exits(0).json();
+    for cells in ["120", "240"] {
+        let point =
+            |p: &&serde_json::Value| p["series"] == "cells as in the case" && p["values"]["grid.cells"] == cells;
+        let point = study["points"].as_array().unwrap().iter().find(point).unwrap();
+        let converged = point["measures"]["error_transport_rate"].as_f64().unwrap();
+        let set = format!("grid.cells={cells}");
+        let found = advise(&["flow_theta06-two-fluid", "--tolerance", "0.2", "--set", &set]);
+        let mesh = found["error_of_mesh"].as_f64().unwrap();
+        assert!((mesh / converged - 1.0).abs() < 1e-6, "{cells}: {mesh} {converged}");
+    }
+    // Grains take minutes, in proportion to the time that they are followed.
+    let grains = |set: &str| advise(&["flow_theta06-coupled", "--set", set])["cost_s"].as_f64().unwrap();
+    let (short, long) = (grains("discrete.duration=10 s"), grains("discrete.duration=20 s"));
+    assert!((long / short - 2.0).abs() < 1e-9 && short > 30.0, "{short} {long}");
+}
+
+#[test]
+fn terms_that_can_go_one_by_one_but_not_together_do_not_all_go() {
+    let scratch = Scratch::new();
+    let terms = |tolerance: &str| {
+        let found = scratch.bedload(["advise", "sheet_1d_sumer91", "--tolerance", tolerance, "--json"]).exits(0).json();
+        let gone = found["terms"].as_array().unwrap().iter().filter(|term| term["keep"] == false).count();
+        (gone, found["dropped_together"].as_f64())
+    };
+    let (gone, together) = terms("0.05");
+    assert_eq!(gone, 2);
+    assert!(together.is_some_and(|error| error > 0.03 && error < 0.05), "{together:?}");
+    // Each of the two changes 2.1 %.
+    assert_eq!(terms("0.03"), (1, None));
+}
+
+#[test]
 fn the_case_that_it_writes_runs_and_is_not_overwritten() {
     let scratch = Scratch::new();
     let words = ["advise", "flow_theta06_quick-coupled", "--tolerance", "0.3", "--write", "least.toml"];

@@ -77,7 +77,11 @@ fn every_input_that_differs_is_named_with_its_values() {
     let page = scratch.read("two/report.html");
     assert!(page.contains("Inputs that differ</h2>") && page.contains("solid volume per area"));
     let (out, _) = exits(&scratch, 0, &["compare", TWO, "run", "--out", "two"]);
-    assert!(out.contains("\n  inputs differ    bed.thickness (see the report)\n"), "{out}");
+    assert!(out.contains("\n  flow             bed.thickness 0.01500 | 0.01400\n"), "{out}");
+    let (out, _) = exits(&scratch, 0, &["compare", TWO, MIXED, "--out", "one", "--force"]);
+    assert!(out.contains("\n  flow             the same in all\n"), "{out}");
+    let with = "\n  solved with      form two-fluid | mixed; closures.drag.law carman-kozeny | none; ";
+    assert!(out.contains(with), "{out}");
     // What is the same flow differs in nothing.
     let found = answer(&scratch, &["compare", TWO, "bed_ouriemi-laminar", "--json", "--out", "same"]);
     assert_eq!(inputs(&found), []);
@@ -255,4 +259,35 @@ fn nothing_from_data_becomes_markup() {
     let page = scratch.read("c/report.html");
     assert!(page.matches("<script").count() == 1 && page.contains("&lt;script&gt;alert(1)"));
     assert!(!page.contains("<script>alert"));
+}
+
+#[test]
+fn one_case_of_several_models_is_refused_with_their_names() {
+    let scratch = Scratch::new();
+    let found = scratch.bedload(["compare", "bed_ouriemi", "--json"]).exits(2).json();
+    assert_eq!(found["error"]["code"], "too-few");
+    assert_eq!(found["error"]["hint"], "add --model laminar-exact --model laminar --model duct-bed");
+}
+
+#[test]
+fn a_broken_premise_comes_first_and_what_has_no_profile_says_why() {
+    let scratch = Scratch::new();
+    let two = ["compare", "sheet_1d_type_b", "sheet_1d_type_a", "--out", "c", "--force", "--set"];
+    let (out, _) = exits(&scratch, 0, &[&two[..], &["flow.shields=0.23"]].concat());
+    assert!(out.starts_with("broken premise of sheet_1d_type_b: the bed moves as a sheet: "), "{out}");
+    let (_, error) = exits(&scratch, 2, &[&two[..], &["flow.shields=0.13"]].concat());
+    assert!(error.contains("sheet_1d_type_b has no profile: no layer of grains moves: "), "{error}");
+}
+
+#[test]
+fn between_planes_the_section_carries_what_the_closed_form_does() {
+    let scratch = Scratch::new();
+    let models = ["--model", "laminar-exact", "--model", "duct-bed"];
+    let found = answer(&scratch, &[&["compare", "bed_ouriemi"], &models[..], &["--json", "--out", "c"]].concat());
+    for name in ["transport_rate_m2_s", "transport_rate_kg_m_s", "transport_rate_dimensionless"] {
+        let row = found["numbers"].as_array().unwrap().iter().find(|n| n["name"] == name);
+        let row = row.unwrap_or_else(|| panic!("{name}: {}", found["numbers"]));
+        let apart = row["relative_differences"][1].as_f64().unwrap();
+        assert!(apart.abs() < 1e-5, "{name}: {apart}");
+    }
 }

@@ -11,7 +11,8 @@ use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::role::Only;
 use crate::closures::side_wall::{self, SideWall};
 use crate::dem::drive::accepts;
-use crate::dem::{Bottom, GrainBed};
+use crate::dem::keep::law;
+use crate::dem::{Bottom, GrainBed, stability};
 use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, Solve, StudyPlan, Term};
 use crate::models::BedFault;
 use crate::result::Premise;
@@ -223,6 +224,16 @@ impl Solve for Coupled {
             self.fluctuation.info(),
         ];
         Description { form: None, equations: equations(self), laws }
+    }
+
+    fn takes_s(&self) -> Option<f64> {
+        /// Steps of a grain in a second, with its fluid (docs/grains.md).
+        const RATE: f64 = 1.5e7;
+        let discrete = &self.bed.discrete;
+        let longest =
+            || Some(discrete.safety * stability::of_pair(&law(&self.bed.contact).ok()?, 0.5 * self.bed.mass()));
+        let step = discrete.time_step.or_else(longest)?;
+        Some(self.bed.mobile as f64 * discrete.duration / step / RATE)
     }
 
     fn derived(&self) -> Vec<(&'static str, f64, &'static str)> {

@@ -246,6 +246,7 @@ impl LaminarBed {
                 .unwrap_or_default(),
             two_velocities: self.drag.is_some(),
             k_ck: self.drag.map(|drag| drag.k_ck),
+            walls: false,
         })
     }
 

@@ -43,6 +43,15 @@ pub(in crate::models) struct BedNumbers {
     pub shear: f64,
 }
 
+/// Reports the transport rate per unit width [m2/s] in all its units.
+pub fn transport(results: &mut Results, bed: &LaminarBed, rate: f64) {
+    let reduced = (bed.rho_p / bed.rho_f - 1.0) * bed.g;
+    results.set(&q::TRANSPORT_RATE, rate);
+    results.set(&q::TRANSPORT_RATE_MASS, rate * bed.rho_p);
+    results.set(&q::TRANSPORT_RATE_BULK, rate / bed.phi);
+    results.set(&q::TRANSPORT_RATE_DIMENSIONLESS, rate / (bed.d * (reduced * bed.d).sqrt()));
+}
+
 impl BedNumbers {
     fn moves(&self, bed: &LaminarBed) -> bool {
         self.h_c < bed.h_p / bed.h
@@ -64,11 +73,8 @@ impl BedNumbers {
         let tau = self.tau * stress;
         let discharge = self.discharge * velocity * h;
         let mut results = Results::default();
-        results.set(&q::TRANSPORT_RATE, rate);
-        results.set(&q::TRANSPORT_RATE_MASS, rate * bed.rho_p);
-        results.set(&q::TRANSPORT_RATE_BULK, rate / bed.phi);
+        transport(&mut results, bed, rate);
         let reduced = (bed.rho_p / bed.rho_f - 1.0) * bed.g;
-        results.set(&q::TRANSPORT_RATE_DIMENSIONLESS, rate / (bed.d * (reduced * bed.d).sqrt()));
         results.set(&q::SHIELDS, tau / (reduced * bed.rho_f * bed.d));
         results.set(&q::U_STAR, (tau / bed.rho_f).sqrt());
         results.set(&q::MOBILE_DEPTH, bed.h_p - self.h_c * h);

@@ -85,6 +85,7 @@ impl Model for OnMesh<RoughWall> {
         (scene.theta < ONSET).then(|| Offer {
             effort: Effort::None,
             because: format!("θ = {theta} is below {ONSET}, where the first grains move: the flow over a bed at rest"),
+            off: "0 below the onset, which was read from the rates of grains (docs/coupled.md)",
             case: OwnCase::Other(format!(
                 "format = 2\nscene = \"channel\"\n[case]\ntitle = \"The flow over a bed at rest\"\n\
                  [fluid]\ndensity = {:?}\nviscosity = {:?}\n[flow]\ndepth = {:?}\nu_star = {:?}\n\

@@ -7,7 +7,8 @@
 //!
 //! Units of the solvers: H, a stress S, S H/eta.
 
-pub mod case;
+pub mod advice;
+mod case;
 mod cavity;
 mod cavity_outcome;
 mod description;

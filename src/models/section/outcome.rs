@@ -12,6 +12,7 @@ use super::solve::Solution;
 use crate::closures::mixture_viscosity::MixtureViscosity;
 use crate::closures::mixture_viscosity::RelativeViscosity;
 use crate::closures::regularisation::Regularisation;
+use crate::models::exact::bed_results::transport;
 use crate::models::premises::outside;
 use crate::models::section::SectionError;
 use crate::models::section::{Contents, DuctFlow, Method, Outline};
@@ -183,6 +184,10 @@ fn results(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Results {
             results.set(&q::BED_FLUX, flux);
             results.set(&q::BED_FLUX_DIMENSIONLESS, bed.phi * numbers.grains);
             results.set(&q::BED_FLUX_MASS, flux * bed.rho_p);
+            if flow.outline == Outline::Planes {
+                // The strip is as wide as high.
+                transport(&mut results, bed, flux / h);
+            }
             results.set(&q::MOBILE_DEPTH, numbers.mobile * h);
             results.set(&q::YIELD_LEVEL, bed.h_p - numbers.mobile * h);
             results.set(&q::BED_LEVEL, bed.h_p);

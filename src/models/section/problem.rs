@@ -1,10 +1,10 @@
 //! A flow along a duct, in its cross-section.
 
 use super::case::{CavityTable, DuctBedTable, DuctTable, Method, SectionGrid, SectionSolver};
-use super::{cavity_equations, equations, run, run_cavity, study};
+use super::{advice, cavity_equations, equations, run, run_cavity, study};
 use crate::case::tables::Shape;
 use crate::closures::regularisation::{Regularisation, Smoothing};
-use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, SteadyDrive, StudyPlan};
+use crate::model::{Description, Faults, Flow, Model, ModelInfo, Offer, OnMesh, Solve, SteadyDrive, StudyPlan, Term};
 use crate::models::exact::bed::{LaminarBed, laminar_bed};
 use crate::models::premises;
 use crate::models::section::SectionFault;
@@ -254,6 +254,10 @@ impl Model for DuctBed {
             Regularisation { law: tables.regularisation.law, lambda: size?.to_scaled(duct.shear_scale()) };
         Some(Self(OnMesh { problem: duct, cells: tables.grid.cells }))
     }
+
+    fn offer(flow: &Flow, _: f64) -> Option<Offer> {
+        advice::offer(flow)
+    }
 }
 
 impl Solve for Duct {
@@ -301,6 +305,14 @@ impl Solve for DuctBed {
 
     fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
         self.0.problem.premises(results)
+    }
+
+    fn flow(&self) -> Result<Option<Flow>, Failure> {
+        Ok(advice::flow(&self.0.problem))
+    }
+
+    fn terms(&self) -> Vec<Term> {
+        advice::terms(&self.0.problem)
     }
 
     fn cells(&self) -> usize {

@@ -235,13 +235,15 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
             return None;
         }
         let theta = significant(scene.theta, 3);
-        let because = if suspends {
-            format!("θ = {theta} and grains in suspension, which no other model has")
+        let (off, because) = if suspends {
+            let off = "not known for grains in suspension; profiles beside those measured by Sumer et al. (1996): docs/sheet-flow.md";
+            (off, format!("θ = {theta} and grains in suspension, which no other model has"))
         } else {
             let [wanted, off] = [tolerance, ERROR].map(|share| format!("{} %", significant(100.0 * share, 2)));
-            format!("θ = {theta}, and {wanted} is enough: it carries up to {off} more than the grains")
+            let because = format!("θ = {theta}, and {wanted} is enough: it carries up to {off} more than the grains");
+            ("20 to 26 % more than the grains (docs/kinetic.md)", because)
         };
-        Some(Offer { effort: Effort::Milliseconds, because, case: OwnCase::Scene(Vec::new()) })
+        Some(Offer { effort: Effort::Milliseconds, because, off, case: OwnCase::Scene(Vec::new()) })
     }
 }
 

@@ -43,7 +43,7 @@ impl Model for OnMesh<LaminarBed> {
 
     fn offer(flow: &Flow, _: f64) -> Option<Offer> {
         let Flow::Laminar(scene) = flow else { return None };
-        if scene.mu_2.is_some() || scene.dilates {
+        if scene.mu_2.is_some() || scene.dilates || scene.walls {
             return None;
         }
         let (form, words) =
@@ -52,12 +52,16 @@ impl Model for OnMesh<LaminarBed> {
             format!("form={form}"),
             format!("closures.friction.mu_s={:?}", scene.mu_s),
             format!("closures.mixture_viscosity={}", scene.viscosity_law),
+            // Side walls that were found not to matter.
+            "flow.section=".to_owned(),
         ];
         let drag = scene.k_ck.map(|k_ck| format!("{{ law = \"carman-kozeny\", k_ck = {k_ck:?} }}"));
         own.push(format!("closures.drag={}", drag.unwrap_or_else(|| "none".into())));
         Some(Offer {
             effort: Effort::None,
             because: format!("constant friction and viscosity have a closed form; {words}"),
+            off: "not known; where the friction rises with the shear rate, a constant one carries 2 to 3 times what was measured \
+                  (Aussillous et al. 2013; docs/validation.md)",
             case: OwnCase::Scene(own),
         })
     }
