@@ -2,10 +2,12 @@
 //! Inside the library every number is SI. A unit is a product of powers of SI symbols; decimal prefixes are
 //! kept as an exponent of ten and applied to the decimal text, so that `"6.5 mm"` is exactly the same `f64` as `6.5e-3`.
 
+mod common;
 mod readable;
 
 use std::fmt;
 
+pub use common::CommonUnits;
 pub use readable::{
     ROUND_OFF, readable, readable_error, readable_known, readable_mean, readable_unit, significant, stated,
 };

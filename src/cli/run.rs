@@ -21,7 +21,7 @@ use crate::result::{
     quantity,
 };
 use crate::runtime::cost::peak_memory_mb;
-use crate::units::{readable, readable_error, significant};
+use crate::units::{CommonUnits, readable_error, significant};
 
 /// Code of an answer that rests on a broken premise, where that is no answer (`--strict`).
 pub(super) const BROKEN_PREMISE: &str = "broken-premise";
@@ -243,7 +243,9 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
     let mut lines: Vec<String> = broken(&written.summary).into_iter().collect();
     lines.push(format!("{}: {model}", written.summary.case));
     let mut line = |label: &str, text: String| lines.push(format!("  {label:<16} {text}"));
-    let value = |q: &'static quantity::Quantity| results.get(q.name).map(|x| readable(x, q.unit));
+    let shown = [&quantity::TRANSPORT_RATE].into_iter().chain(HEADLINES.iter().copied().flatten().copied());
+    let units = CommonUnits::of(shown.filter_map(|q| Some((results.get(q.name)?, q.unit))));
+    let value = |q: &'static quantity::Quantity| results.get(q.name).map(|x| units.readable(x, q.unit));
     if let Some(rate) = value(&quantity::TRANSPORT_RATE) {
         let star = value(&quantity::TRANSPORT_RATE_DIMENSIONLESS).map(|x| format!("  (Q* = {x})"));
         line("transport rate", format!("{rate}{}  {}", star.unwrap_or_default(), trust(&written.summary)));

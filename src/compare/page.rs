@@ -1,12 +1,12 @@
 //! The page of a comparison: numbers first, then what to bear in mind, the figures and the origin.
 
-use super::{Comparison, Deviation, Kind, NormRow};
+use super::{Comparison, Deviation, Kind, NormRow, NumberRow};
 use crate::plot::{Cell, Document, Section, document_html};
 use crate::result::Figure;
 use crate::result::Verdict;
 use crate::result::quantity::{self, Quantity};
 use crate::result::{Cost, Provenance};
-use crate::units::{readable, significant};
+use crate::units::{CommonUnits, readable, significant};
 
 impl Comparison {
     /// The page with `figures`, which are those of [`Comparison::figures`].
@@ -163,13 +163,22 @@ impl Comparison {
                 head.push("difference".into());
             }
         }
+        let each = |row: &NumberRow| {
+            let values: Vec<f64> = row.values.iter().flatten().map(|(value, _)| *value).collect();
+            values.into_iter().map(|value| (value, row.quantity.unit)).collect::<Vec<_>>()
+        };
+        let units = CommonUnits::of(self.numbers.iter().flat_map(each));
+        let shown = |value: f64, quantity: &'static Quantity| match self.scaled {
+            true => self.value(value, quantity),
+            false => units.readable(value, quantity.unit),
+        };
         let rows = self.numbers.iter().map(|row| {
             let mut cells = vec![Cell::Text(row.quantity.title.into())];
             for (i, (value, difference)) in row.values.iter().zip(&row.differences).enumerate() {
                 cells.push(value.map_or(Cell::Empty("not reported"), |(value, error)| {
-                    let sigma = error.map_or_else(String::new, |e| format!(" ± {}", self.value(e, row.quantity)));
+                    let sigma = error.map_or_else(String::new, |e| format!(" ± {}", shown(e, row.quantity)));
                     let full = format!("{} = {value:?}", row.quantity.name);
-                    Cell::Number { shown: self.value(value, row.quantity) + &sigma, full }
+                    Cell::Number { shown: shown(value, row.quantity) + &sigma, full }
                 }));
                 if i > 0 {
                     let base = i == row.base || value.is_none();

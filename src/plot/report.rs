@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use crate::result::Verdict;
 use crate::result::quantity::{self, RESULTS};
 use crate::result::{Animation, Reported, Statement, Status, Summary};
-use crate::units::{readable, readable_mean, significant};
+use crate::units::{CommonUnits, readable, significant};
 
 use super::animation::animation_html;
 use super::shell::{foot, head, typeset};
@@ -160,6 +160,8 @@ fn validity(summary: &Summary) -> String {
 /// The named numbers, each in a readable unit, with all its digits on hover.
 fn results(summary: &Summary) -> String {
     let mut rows = String::new();
+    let sizes = |(name, reported): (&str, &Reported)| Some((reported.value?, quantity::find(RESULTS, name)?.unit));
+    let units = CommonUnits::of(summary.results.iter().filter_map(sizes));
     for (name, reported) in summary.results.iter() {
         let known = quantity::find(RESULTS, name);
         let (title, symbol) = known.map_or((name, ""), |q| (q.title, q.symbol));
@@ -170,7 +172,7 @@ fn results(summary: &Summary) -> String {
             escape(title),
             subscripts(symbol),
             escape(&full(name, reported)),
-            value(reported, unit),
+            value(reported, unit, &units),
         );
     }
     if rows.is_empty() {
@@ -179,14 +181,14 @@ fn results(summary: &Summary) -> String {
     format!("<section><h2>Results</h2><table class=\"results\"><tbody>\n{rows}</tbody></table></section>\n")
 }
 
-fn value(reported: &Reported, unit: &'static str) -> String {
+fn value(reported: &Reported, unit: &'static str, units: &CommonUnits) -> String {
     let Some(value) = reported.value else {
         return format!("<span class=\"none\">– {}</span>", escape(reported.reason.as_deref().unwrap_or("undefined")));
     };
     typeset(&match reported.stderr {
-        Some(error) => readable_mean(value, error, unit),
+        Some(error) => units.readable_mean(value, error, unit),
         None if unit == "1" && is_count(value) => format!("{value}"),
-        None => readable(value, unit),
+        None => units.readable(value, unit),
     }) + &match &reported.reason {
         Some(reason) => format!(" <span class=\"none\">error unknown: {}</span>", escape(reason)),
         None => String::new(),

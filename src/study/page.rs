@@ -5,7 +5,7 @@ use super::{Assessment, Numbers, Row};
 use crate::compare::origin;
 use crate::plot::{Cell, Document, Section, document_html};
 use crate::result::{Cost, Provenance, Status, quantity};
-use crate::units::{readable, significant};
+use crate::units::{CommonUnits, significant};
 
 /// Results that the table of points shows, where any point has them; all of them are in `points.csv`.
 const QUANTITIES: &[&quantity::Quantity] = &[
@@ -76,6 +76,8 @@ fn points(head: &Head<'_>, rows: &[Row], assessment: &Assessment) -> Section<'st
     heads.extend(assessment.measures.iter().map(|(name, _)| name.replace('_', " ")));
     heads.extend(reported.iter().map(|q| q.title.to_owned()));
     heads.extend(["iterations".to_owned(), "solver".to_owned()]);
+    let sizes = reported.iter().flat_map(|q| rows.iter().filter_map(|row| Some((row.result(q.name)?, q.unit))));
+    let units = CommonUnits::of(sizes);
     let cells = rows.iter().enumerate().map(|(i, row)| {
         let number = |x: Option<f64>, text: &dyn Fn(f64) -> String| {
             x.map_or(Cell::Empty("no value"), |x| Cell::Number { shown: text(x), full: format!("{x:?}") })
@@ -85,7 +87,7 @@ fn points(head: &Head<'_>, rows: &[Row], assessment: &Assessment) -> Section<'st
         cells.push(Cell::Text(row.status.to_string()));
         let measures = assessment.measures.iter();
         cells.extend(measures.map(|(_, all)| number(all.get(i).copied().flatten(), &measure)));
-        cells.extend(reported.iter().map(|q| number(row.result(q.name), &|x| readable(x, q.unit))));
+        cells.extend(reported.iter().map(|q| number(row.result(q.name), &|x| units.readable(x, q.unit))));
         cells.push(number(row.iterations.map(|n| n as f64), &|n| format!("{n}")));
         let ran = (row.status == Status::Done).then_some(row.cost.solve_s);
         cells.push(number(ran, &|s| format!("{:.2} ms", 1e3 * s)));

@@ -49,7 +49,11 @@ pub fn readable_unit(magnitude: f64, unit: &'static str) -> (f64, &'static str) 
 /// `value` in a readable multiple of `unit` with four significant digits, such as `12.10 mm`.
 #[must_use]
 pub fn readable(value: f64, unit: &'static str) -> String {
-    let (factor, symbol) = readable_unit(value, unit);
+    shown_in(value, readable_unit(value, unit))
+}
+
+/// `value` in a multiple of its unit, with four digits.
+pub(super) fn shown_in(value: f64, (factor, symbol): (f64, &'static str)) -> String {
     let number = significant(value * factor, 4);
     if symbol.is_empty() || symbol == "1" { number } else { format!("{number} {symbol}") }
 }
@@ -79,7 +83,11 @@ pub fn readable_known(value: f64, error: Option<f64>, unit: &'static str) -> Str
 /// `value ± error` in a readable multiple of `unit`, the error with two digits, such as `12.10 ± 0.12 mm`.
 #[must_use]
 pub fn readable_mean(value: f64, error: f64, unit: &'static str) -> String {
-    let (factor, symbol) = readable_unit(value, unit);
+    mean_in(value, error, readable_unit(value, unit))
+}
+
+/// `value ± error` in a multiple of its unit.
+pub(super) fn mean_in(value: f64, error: f64, (factor, symbol): (f64, &'static str)) -> String {
     // An error of round-off is none.
     let error = if error.abs() < ROUND_OFF * value.abs() { 0.0 } else { error };
     let (value, error) = (value * factor, error * factor);

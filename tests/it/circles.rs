@@ -48,7 +48,7 @@ const EXPLAINED: &[(&str, &[&str], &str)] = &[
         "a bed, its packing and how that spreads are one system of equations",
     ),
     ("models::laminar", &["outcome", "problem", "study"], METHODS),
-    ("models::section", &["problem", "study"], METHODS),
+    ("models::section", &["advice", "problem", "study"], METHODS),
     ("models::shear_cell", &["problem", "study"], METHODS),
     (
         "models::sheet_flow",
