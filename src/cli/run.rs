@@ -21,7 +21,7 @@ use crate::result::{
     quantity,
 };
 use crate::runtime::cost::peak_memory_mb;
-use crate::units::{CommonUnits, readable_error, significant};
+use crate::units::{CommonUnits, readable, readable_error, significant};
 
 /// Code of an answer that rests on a broken premise, where that is no answer (`--strict`).
 pub(super) const BROKEN_PREMISE: &str = "broken-premise";
@@ -315,6 +315,13 @@ fn trust(summary: &Summary) -> String {
             (None, Some(reason)) => return format!("error unknown: {reason}"),
             (None, None) => {}
         }
+    }
+    let result = |quantity: &quantity::Quantity| summary.results.get(quantity.name);
+    if let (Some(_), Some(time)) = (result(&quantity::RATE_AMPLITUDE), result(&quantity::AVERAGED_TIME)) {
+        return format!("mean over {}", readable(time, "s"));
+    }
+    if let Some(mean) = result(&quantity::RATE_MEAN) {
+        return format!("at the last instant; {} over the later half", readable(mean, quantity::RATE_MEAN.unit));
     }
     let lambda = |key: &str| summary.regularisation.get(key).and_then(Value::as_f64);
     let lambda = lambda("lambda_scaled").or_else(|| lambda("lambda_1_s"));

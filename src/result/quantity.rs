@@ -263,7 +263,7 @@ catalogue! {
     GROWTH_FREQUENCY = "growth_frequency_1_s", "angular frequency of that disturbance", "ω", "1/s", "0 where it does not oscillate";
     RATE_MEAN = "transport_rate_mean_m2_s", "mean transport rate", "<q_p>", "m²/s", "over the second half of the simulated time";
     RATE_MEAN_SCALED = "transport_rate_mean_dimensionless", "mean dimensionless transport rate", "<Q*>", "1", "over the second half of the simulated time";
-    RATE_AMPLITUDE = "transport_rate_amplitude_m2_s", "amplitude of the transport rate", "q̂_p", "m²/s", "half of largest minus smallest, over the whole periods that are averaged";
+    RATE_AMPLITUDE = "transport_rate_amplitude_m2_s", "amplitude of the transport rate", "q̂_p", "m²/s", "half of largest minus smallest, over the whole periods, or the record, that are averaged";
     RATE_FORWARD = "transport_rate_forward_m2_s", "transport rate forward", "q_p+", "m²/s", "mean over the halves of the periods in which the clear fluid goes forward";
     RATE_BACKWARD = "transport_rate_backward_m2_s", "transport rate backward", "q_p-", "m²/s", "mean over the halves of the periods in which the clear fluid goes backward";
     RATE_SWING = "transport_rate_swing", "swing of the transport rate", "Δq_p/<q_p>", "1", "largest minus smallest of the samples in the second half of the simulated time, over their mean";

@@ -61,6 +61,17 @@ fn waves_that_were_measured_are_those_of_the_same_form() {
         let (a, b) = (form.results.get(name), record.results.get(name));
         assert!(a.zip(b).is_some_and(|(a, b)| (b / a - 1.0).abs() < 2e-3), "{name}: {a:?} {b:?}");
     }
+    // A record of one whole period has the mean and the amplitude of the form.
+    let period = ["grid.cells=30", "solver.duration=5", "solver.samples=20"].map(str::to_owned);
+    let solved = |text: &str| run(&REGISTRY.parse("waves", "waves.toml", text.to_owned(), &period).unwrap().1).unwrap();
+    let [form, record] = [solved(&waves), solved(&recorded(501))].map(|outcome| outcome.results);
+    let amplitude = form.get("transport_rate_amplitude_m2_s").unwrap();
+    for name in ["transport_rate_m2_s", "transport_rate_amplitude_m2_s"] {
+        let (a, b) = (form.get(name).unwrap(), record.get(name).unwrap());
+        assert!((b - a).abs() < 2e-3 * amplitude && a.abs() > 4e-3 * amplitude, "{name}: {a} {b}");
+    }
+    assert!((record.get("averaged_time_s").unwrap() - 5.0).abs() < 1e-12);
+    assert!(record.reason("transport_rate_forward_m2_s").is_some_and(|why| why.contains("no half-cycles")));
     let code = |text: String| {
         let refused = REGISTRY.parse("waves", "waves.toml", text, &small).unwrap_err();
         refused.violations[0].fault.code().to_owned()

@@ -58,7 +58,8 @@ pub(super) fn run(flow: &TwoFluid, cells: usize, watch: &mut dyn Watch) -> Resul
         [steady[0] + push, steady[1] + push / ratio]
     };
     let mut march = March::new(column, still);
-    let mut track = waves.map(|(_, period)| Track::new(period, end, &march));
+    let period = waves.map(|(_, period)| period);
+    let mut track = flow.waves().then(|| Track::new(period, end, &march));
     let mut samples: Vec<Sample> = Vec::with_capacity(wanted);
     let (mut status, mut stuck) = (Status::Done, None);
     'time: for k in 1..=wanted {
