@@ -36,8 +36,10 @@ pub struct Number {
 pub struct Term {
     /// what it is
     pub what: &'static str,
-    /// whether to keep it
+    /// whether the flow needs it
     pub keep: bool,
+    /// whether the case has it
+    pub has: bool,
     /// relative change of the transport rate without it, where both were solved
     pub error: Option<f64>,
     /// why, in words

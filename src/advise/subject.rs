@@ -66,10 +66,11 @@ impl Subject<'_> {
     pub fn assess(&self, term: &model::Term) -> Option<Term> {
         let model::Term { what, source, .. } = *term;
         let (change, left, free) = match &term.test {
-            TermTest::Known { keep, because } => {
+            TermTest::Known { keep, has, because } => {
                 return Some(Term {
                     what,
                     keep: *keep,
+                    has: *has,
                     error: None,
                     because: because.clone(),
                     source,
@@ -96,7 +97,7 @@ impl Subject<'_> {
         // The better answer, where there is one.
         let better = *free && error.is_some();
         let (keep, because) = if better { (false, format!("{because}, and is no slower")) } else { (keep, because) };
-        Some(Term { what, keep, error, because, source, change: change.clone() })
+        Some(Term { what, keep, has: true, error, because, source, change: change.clone() })
     }
 }
 

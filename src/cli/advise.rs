@@ -49,7 +49,7 @@ impl Verb for Advise {
         if self.json {
             let numbers = advice.numbers.iter().map(|n| json!({ "name": n.name, "value": n.value, "says": n.says }));
             let terms = advice.terms.iter().map(|t| {
-                json!({ "what": t.what, "keep": t.keep, "error": t.error, "because": t.because, "source": t.source })
+                json!({ "what": t.what, "keep": t.keep, "has": t.has, "error": t.error, "because": t.because, "source": t.source })
             });
             let least = &advice.least;
             return Ok(answers.give(&json!({
@@ -81,7 +81,12 @@ impl Verb for Advise {
             _ => format!("\n  terms of {}\n", advice.of),
         };
         for term in &advice.terms {
-            let verdict = if term.keep { "keep" } else { "drop" };
+            let verdict = match (term.keep, term.has) {
+                (true, true) => "keep",
+                (true, false) => "add ",
+                (false, true) => "drop",
+                (false, false) => "none",
+            };
             text += &format!("  {verdict} {:<36} {} ({})\n", term.what, term.because, term.source);
         }
         if let Some(error) = advice.together {

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::progress::Progress;
+use super::run::not_strictly;
 use super::{Answers, CliError, Verb, say, word};
 use crate::case::{Case, for_model};
 use crate::compare::{
@@ -57,6 +58,9 @@ pub(super) struct Compare {
     /// Replace whatever comparison the folder holds
     #[arg(long)]
     force: bool,
+    /// Exit with code 3 where a premise of a model is broken
+    #[arg(long)]
+    strict: bool,
 }
 
 /// [`Align`] on the command line.
@@ -131,11 +135,14 @@ impl Verb for Compare {
             figures: &figures,
         };
         let figures = write_comparison(folder, &compared, self.png)?;
+        let mut value = compared.record.clone();
+        if let Value::Object(object) = &mut value {
+            object.insert("out".into(), out.display().to_string().into());
+        }
+        if let Some(message) = broken(&comparison.subjects).filter(|_| self.strict) {
+            return Err(not_strictly(message, value));
+        }
         if self.json {
-            let mut value = compared.record.clone();
-            if let Value::Object(object) = &mut value {
-                object.insert("out".into(), out.display().to_string().into());
-            }
             return Ok(answers.give(&value)?);
         }
         if self.quiet {

@@ -26,6 +26,23 @@ use crate::units::{CommonUnits, readable, readable_error, significant};
 /// Code of an answer that rests on a broken premise, where that is no answer (`--strict`).
 pub(super) const BROKEN_PREMISE: &str = "broken-premise";
 
+/// Under `--strict` an answer that rests on a broken premise, of which `message` says which, is a failure; the folder keeps it.
+pub(super) fn not_strictly(message: String, mut answer: Value) -> CliError {
+    let hint = "another model (`bedload advise`), or another flow; without --strict it is an answer";
+    let error = ErrorReport {
+        code: BROKEN_PREMISE.into(),
+        message,
+        path: None,
+        line: None,
+        allowed: None,
+        hint: Some(hint.into()),
+    };
+    if let Value::Object(object) = &mut answer {
+        object.insert("error".into(), serde_json::json!(error));
+    }
+    CliError::Failed(error, Some(answer))
+}
+
 /// Solve a case and write its folder: numbers, tables, report.
 #[derive(Clone, Debug, Args)]
 pub(super) struct Run {
@@ -97,20 +114,7 @@ impl Verb for Run {
             (Status::Failed, Some(error)) => Err(CliError::Failed(error.clone(), Some(value))),
             (Status::Stopped, _) => Err(CliError::Stopped(value, written.kept)),
             _ if self.strict && broken(&written.summary).is_some() => {
-                let error = ErrorReport {
-                    code: BROKEN_PREMISE.into(),
-                    message: broken(&written.summary).unwrap_or_default(),
-                    path: None,
-                    line: None,
-                    allowed: None,
-                    hint: Some(
-                        "another model (`bedload advise`), or another flow; without --strict it is an answer".into(),
-                    ),
-                };
-                if let Value::Object(object) = &mut value {
-                    object.insert("error".into(), serde_json::json!(error));
-                }
-                Err(CliError::Failed(error, Some(value)))
+                Err(not_strictly(broken(&written.summary).unwrap_or_default(), value))
             }
             _ if self.json => Ok(answers.give(&value)?),
             _ if self.quiet => Ok(()),
@@ -252,7 +256,10 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
     } else if let Some(why) = results.reason(quantity::TRANSPORT_RATE.name) {
         line("transport rate", format!("none: {why}"));
     }
-    for group in HEADLINES {
+    // Between planes the rate of transport is known per width.
+    let of_a_section = |group: &&&[&quantity::Quantity]| group.contains(&&quantity::BED_FLUX);
+    let per_width = value(&quantity::TRANSPORT_RATE).is_some();
+    for group in HEADLINES.iter().filter(|group| !(per_width && of_a_section(group))) {
         let given: Vec<_> =
             group.iter().filter_map(|q| Some((q.title, format!("{} {}", q.symbol, value(q)?)))).collect();
         if let Some((title, _)) = given.first() {

@@ -8,12 +8,13 @@ use serde_json::{Value, json};
 
 use super::interrupt;
 use super::progress::Progress;
+use super::run::not_strictly;
 use super::{Answers, CaseArgs, CliError, say, word};
 use crate::model::Registry;
 use crate::output::Mode;
 use crate::result::{ErrorReport, Snapshot, Status, Watch};
 use crate::study::Assess;
-use crate::study::{Conducted, Next, Observer, Plan, Settings, conduct};
+use crate::study::{BROKEN, Conducted, Next, Observer, Plan, Settings, conduct};
 
 /// How a study is conducted.
 #[derive(Clone, Debug, Args)]
@@ -36,6 +37,9 @@ pub(super) struct StudyArgs {
     /// Replace whatever study the folder holds
     #[arg(long)]
     force: bool,
+    /// Exit with code 3 where a premise of the model is broken at a point
+    #[arg(long)]
+    strict: bool,
     /// Keep the points of the same study that are done
     #[arg(long)]
     resume: bool,
@@ -118,6 +122,10 @@ impl StudyArgs {
                 Err(CliError::Failed(error, Some(value)))
             }
             Status::Stopped => Err(CliError::Stopped(value, found.kept)),
+            _ if self.strict && found.broken().is_some() => Err(not_strictly(
+                found.broken().map(|text| format!("broken premise: {text}")).unwrap_or_default(),
+                value,
+            )),
             _ if self.json => Ok(answers.give(&value)?),
             _ if self.quiet => Ok(()),
             _ => {
@@ -150,9 +158,11 @@ fn closing(plan: &Plan, found: &Conducted, command: &str) -> String {
     if found.resumed > 0 {
         counts += &format!(" ({} before)", found.resumed);
     }
-    let mut lines = vec![format!("{} {}: {counts}", plan.verb, plan.case)];
+    let mut lines: Vec<String> = found.broken().map(|text| format!("broken premise: {text}")).into_iter().collect();
+    lines.push(format!("{} {}: {counts}", plan.verb, plan.case));
     let mut line = |label: &str, text: String| lines.push(format!("  {label:<24} {text}"));
-    for (label, text) in found.assessment.findings.iter().take(MAX_FINDINGS) {
+    let findings = found.assessment.findings.iter().filter(|(label, _)| label != BROKEN);
+    for (label, text) in findings.take(MAX_FINDINGS) {
         line(label, text.clone());
     }
     if let Some(first) = failed.first() {

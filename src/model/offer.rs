@@ -216,8 +216,10 @@ pub enum TermTest {
     },
     /// by a threshold that was measured elsewhere
     Known {
-        /// whether to keep it
+        /// whether the flow needs it
         keep: bool,
+        /// whether the case has it
+        has: bool,
         /// why
         because: String,
     },

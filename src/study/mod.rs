@@ -38,7 +38,7 @@ use crate::result::Premise;
 use crate::result::{Class, Cost, ErrorReport, Field, Figure, Profile, Results, Status, codes};
 
 pub use errors::Reference;
-pub use runner::{Conducted, Next, Observer, Settings, conduct};
+pub use runner::{BROKEN, Conducted, Next, Observer, Settings, conduct};
 
 /// Code of a point that the user stopped.
 pub(crate) const STOPPED: &str = "stopped";

@@ -89,6 +89,18 @@ pub struct Conducted {
     pub cost: Cost,
 }
 
+/// Label of what says which premise is broken at how many points.
+pub const BROKEN: &str = "broken premise";
+
+impl Conducted {
+    /// At how many points a premise is broken, and the first; `None` where none is.
+    #[must_use]
+    pub fn broken(&self) -> Option<&str> {
+        let found = self.assessment.findings.iter().find(|(label, _)| label == BROKEN);
+        found.map(|(_, text)| text.as_str())
+    }
+}
+
 /// A point with its case, if that can be used.
 struct Loaded {
     case: Result<(Case, Problem, String), CaseError>,
@@ -244,7 +256,7 @@ fn run(
 fn premises(rows: &[Row]) -> Option<(String, String)> {
     let broken: Vec<&Row> = rows.iter().filter(|row| !row.broken.is_empty()).collect();
     let first = broken.first()?.broken.first()?;
-    Some(("broken premise".into(), format!("{} of {} points, the first: {}", broken.len(), rows.len(), first.line())))
+    Some((BROKEN.into(), format!("{} of {} points, the first: {}", broken.len(), rows.len(), first.line())))
 }
 
 /// The run in `place`, if it is done and may be taken as it is.

@@ -51,33 +51,33 @@ pub(super) fn scene(flow: &Coupled) -> TurbulentScene {
 
 pub(super) fn terms(grains: &Coupled) -> Vec<Term> {
     let (bed, flow) = (&grains.bed, scene(grains));
-    let known = |what, source, keep, because: String| Term {
+    let known = |what, source, keep, has, because: String| Term {
         what,
         source,
-        test: TermTest::Known { keep, because },
+        test: TermTest::Known { keep, has, because },
         dropped: None,
     };
     // Walls that are as rough as the bed would leave it this share of the stress, smooth ones leave more.
     let share = if flow.walls { 1.0 / (1.0 + 2.0 * flow.depth / bed.size[1]) } else { 1.0 };
     let keep = flow.theta * share < EDDIES;
-    let has = if grains.fluctuation == Fluctuation::None { "; this case has none" } else { "" };
+    let has = grains.fluctuation != Fluctuation::None;
     let because = format!(
-        "θ at the bed {} {EDDIES}: near the onset they decide, beyond they change less than the error of a mean{has}",
+        "θ at the bed {} {EDDIES}: near the onset they decide, beyond they change less than the error of a mean",
         if keep { "may be below" } else { "is above" }
     );
-    let mut terms = vec![known("eddies on the grains", MAURIN, keep, because)];
+    let mut terms = vec![known("eddies on the grains", MAURIN, keep, has, because)];
     let walls = if flow.walls { "their friction decides the rate of a narrow flume" } else { "there are none" };
-    terms.push(known("side walls", MAURIN, flow.walls, walls.into()));
+    terms.push(known("side walls", MAURIN, flow.walls, flow.walls, walls.into()));
     let across = bed.size[0].min(if flow.walls { bed.size[0] } else { bed.size[1] }) / flow.d;
     let because = format!(
         "{} d: 10 d squared, or 100 d of a flume, is converged within the error of 25 s",
         significant(across, 3)
     );
-    terms.push(known("large cell", MAURIN, false, because));
+    terms.push(known("large cell", MAURIN, false, true, because));
     if bed.bottom == Bottom::Slice {
         let deep = thickness(grains) / bed.d - flow.layers();
         let because = format!("{} layers lie under the moving ones", significant(deep.max(0.0), 2));
-        terms.push(known("deep bed", CHASSAGNE, deep < 3.0, because));
+        terms.push(known("deep bed", CHASSAGNE, deep < 3.0, true, because));
     }
     terms
 }
