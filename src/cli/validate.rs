@@ -13,7 +13,7 @@ use crate::output::TableFile;
 use crate::units::significant;
 use crate::validate::advice::{self, Assessed};
 use crate::validate::table::ADVICE_TESTS;
-use crate::validate::{FIGURE, HEAD, Row, ValidateError, Verdict, figure, markdown, validate};
+use crate::validate::{FIGURE, Going, HEAD, Partial, Row, ValidateError, Verdict, figure, markdown, validate};
 
 /// Re-run what the cases claim and write the table.
 #[derive(Clone, Debug, Args)]
@@ -36,6 +36,9 @@ pub(super) struct Validate {
     /// File for the table [default: docs/validation.md with --full, where there is a folder docs]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
+    /// Take the rows that an unfinished validation of this version into the same file found
+    #[arg(long, requires = "full")]
+    resume: bool,
     /// Print one JSON object
     #[arg(long)]
     pub(super) json: bool,
@@ -62,7 +65,13 @@ impl Verb for Validate {
             waiting.extend(claims.into_iter().filter(|claims| claims.waiting > 0));
             cases.extend(of_it);
         }
-        let rows = validate(registry, &cases, tier, &mut Progress::new(self.json))?;
+        let from = table.as_ref().filter(|_| self.resume).and_then(TableFile::kept);
+        let from = from.map(|text| Partial::read(&text)).unwrap_or_default();
+        // Hours of work are not lost: the quick rows are made again in a minute.
+        let kept = table.as_ref().filter(|_| tier == Tier::Full);
+        let mut keep = |found: &Partial| kept.into_iter().for_each(|table| table.keep(&found.text()));
+        let going = Going { from, keep: &mut keep };
+        let rows = validate(registry, &cases, tier, &mut Progress::new(self.json), going)?;
         let assessed = if self.advice || self.full && self.cases.is_empty() {
             advice::assess(registry, ADVICE_TESTS)
         } else {

@@ -41,6 +41,24 @@ impl TableFile {
         Ok(Self { _above: Made::above(&drawing).map_err(unwritable)?, _site: site, file, new })
     }
 
+    /// The file of what an unfinished table holds: `validation.md.partial`.
+    fn partial(&self) -> PathBuf {
+        let mut name = self.file.file_name().unwrap_or_default().to_owned();
+        name.push(".partial");
+        self.file.with_file_name(name)
+    }
+
+    /// What an unfinished table held.
+    #[must_use]
+    pub fn kept(&self) -> Option<String> {
+        fs::read_to_string(self.partial()).ok()
+    }
+
+    /// Keeps what the table holds so far. That it cannot be kept is no reason to stop: the table is written in the end.
+    pub fn keep(&self, text: &str) {
+        let _ = write_whole(&self.partial(), |to| to.write_all(text.as_bytes()));
+    }
+
     /// Writes the figure, then the table.
     ///
     /// # Errors
@@ -52,7 +70,9 @@ impl TableFile {
             if self.new {
                 let _ = fs::remove_file(drawing);
             }
-        })
+        })?;
+        let _ = fs::remove_file(self.partial());
+        Ok(())
     }
 }
 

@@ -330,7 +330,8 @@ mod tests {
         assert_eq!(subscripts("U - u_p"), "U − u<sub>p</sub>");
         assert_eq!(subscripts("z(u_max)"), "z(u<sub>max</sub>)");
         assert_eq!(duration(2.1e-4), "210 µs");
-        let shown = [730.0, 0.0, 0.5].map(|x| value(&Reported { value: Some(x), stderr: None, reason: None }, "1"));
+        let shown = [730.0, 0.0, 0.5]
+            .map(|x| value(&Reported { value: Some(x), stderr: None, reason: None }, "1", &CommonUnits::default()));
         assert_eq!(shown, ["730", "0", "0.5000"].map(str::to_owned));
     }
 

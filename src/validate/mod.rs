@@ -1,7 +1,10 @@
 //! Re-runs what the cases claim: each `[[check]]` row of each case, as one table.
 
 pub mod advice;
+mod partial;
 pub mod table;
+
+pub use partial::Partial;
 
 use std::fmt::Write;
 
@@ -80,6 +83,14 @@ pub enum ValidateError {
     Limit(#[from] StudyError),
 }
 
+/// What an unfinished validation found, and what is told after each case that was run.
+pub struct Going<'a> {
+    /// cases that are not run again
+    pub from: Partial,
+    /// takes what was found so far
+    pub keep: &'a mut dyn FnMut(&Partial),
+}
+
 /// Runs the checks of `cases` (all shipped ones if there are none) up to `tier`.
 ///
 /// # Errors
@@ -89,6 +100,7 @@ pub fn validate(
     cases: &[String],
     tier: Tier,
     watch: &mut dyn Watch,
+    mut going: Going<'_>,
 ) -> Result<Vec<Row>, ValidateError> {
     let names: Vec<String> =
         if cases.is_empty() { shipped::names().map(str::to_owned).collect() } else { cases.to_vec() };
@@ -97,13 +109,29 @@ pub fn validate(
         let (case, problem) = registry.load(name, &[]).map_err(Box::new)?;
         let due = |of: Tier| of == Tier::Quick || tier == Tier::Full;
         let wanted = |check: &&Check| due(check.tier);
+        let resolved = case.resolved();
+        let limit = case.limit().filter(|limit| due(limit.tier));
+        if let Some(found) = going.from.found(name, &resolved) {
+            let checks = case.checks().iter().filter(wanted).map(|check| (check.clone(), false));
+            let all = checks.chain(limit.map(|limit| (claim(limit), true)));
+            rows.extend(all.zip(found).map(|((check, of_limit), found)| {
+                // A limit that is not found as it is claimed is red, whatever its kind.
+                let red = of_limit && found.is_err();
+                let row = assessed(&case.name, &check, found);
+                if red { Row { verdict: Verdict::Red, ..row } } else { row }
+            }));
+            continue;
+        }
+        let before = rows.len();
         if case.checks().iter().filter(wanted).count() > 0 {
             let outcome = problem.run(&mut Context::new(watch));
             rows.extend(case.checks().iter().filter(wanted).map(|check| row(&case.name, check, &outcome)));
         }
-        if let Some(limit) = case.limit().filter(|limit| due(limit.tier)) {
+        if let Some(limit) = limit {
             rows.push(limit_row(registry, name, &case.name, limit)?);
         }
+        going.from.keep(name, resolved, rows[before..].iter().map(|row| row.found.clone()));
+        (going.keep)(&going.from);
     }
     Ok(rows)
 }

@@ -182,3 +182,26 @@ fn a_table_replaces_only_a_table() {
         assert!(scratch.snapshot(".") == before && !scratch.path("else").exists(), "{limit} {out}");
     }
 }
+
+#[test]
+fn an_unfinished_validation_goes_on() {
+    let scratch = scratch();
+    let full = ["validate", "bingham_1d_plane", "kinetic_1d_e05", "--full", "--out", "t/table.md"];
+    scratch.bedload(full).exits(0);
+    let table = scratch.read("t/table.md");
+    assert_eq!(scratch.names("t"), ["figures", "table.md"], "what is finished is not unfinished, too");
+    // A case that was run before is not run again: what it found is taken as it is, and assessed again.
+    let line = format!("trap '' XFSZ; ulimit -f 16; exec \"$BEDLOAD\" {}", full.join(" "));
+    scratch.shell(&line).exits(1);
+    let kept = scratch.read("t/table.md.partial");
+    let cases: serde_json::Value = serde_json::from_str(&kept).unwrap();
+    assert_eq!(cases["cases"].as_object().unwrap().len(), 2);
+    let found = cases["cases"]["bingham_1d_plane"]["found"][0].as_f64().unwrap();
+    scratch.write("t/table.md.partial", kept.replacen(&format!("{found:?}"), "0.5", 1));
+    let resumed = scratch.bedload(full.into_iter().chain(["--resume"])).exits(3).out;
+    assert!(resumed.contains("FAIL  bingham_1d_plane"), "{resumed}");
+    assert!(scratch.read("t/table.md") != table);
+    // Without it all are run.
+    scratch.bedload(full).exits(0);
+    assert_eq!(scratch.read("t/table.md"), table);
+}
