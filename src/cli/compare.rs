@@ -253,9 +253,12 @@ impl Compare {
             line("solved with", models);
         }
         let warnings = comparison.warnings();
-        if let Some(first) = warnings.first() {
+        // What is broken comes first there, and was said before.
+        let said = comparison.subjects.iter().map(breaks).sum();
+        let others: Vec<&String> = warnings.iter().skip(said).collect();
+        if let Some(first) = others.first() {
             let more =
-                if warnings.len() > 1 { format!(" (1 of {}, see the report)", warnings.len()) } else { String::new() };
+                if others.len() > 1 { format!(" (1 of {}, see the report)", others.len()) } else { String::new() };
             line("bear in mind", format!("{first}{more}"));
         }
         line("cost", format!("{:.2} ms to solve, {:.1} ms in all", 1e3 * cost.solve_s, 1e3 * cost.total_s));
@@ -273,10 +276,14 @@ impl Compare {
     }
 }
 
+/// How many premises of a subject are broken.
+fn breaks(subject: &Subject) -> usize {
+    subject.regime.iter().filter(|premise| premise.verdict == Verdict::Broken).count()
+}
+
 /// The premise that is broken, before everything else.
 fn broken(subjects: &[Subject]) -> Option<String> {
-    let of = |subject: &'_ Subject| subject.regime.iter().filter(|premise| premise.verdict == Verdict::Broken).count();
-    let more = match subjects.iter().map(of).sum::<usize>() {
+    let more = match subjects.iter().map(breaks).sum::<usize>() {
         0 | 1 => String::new(),
         n => format!(" ({} more in the report)", n - 1),
     };
