@@ -7,7 +7,7 @@ use crate::case::CaseError;
 use crate::model::ClosedForm;
 use crate::model::Registry;
 use crate::result::quantity::{self as q, Quantity};
-use crate::result::{Class, Context, Results};
+use crate::result::{Class, Context, Results, Verdict};
 
 /// What is assessed: the first of these that a point and its closed form have.
 const ASSESSED: &[&Quantity] = &[&q::TRANSPORT_RATE, &q::PLUG_VELOCITY, &q::RESTITUTION, &q::FLOW_RATE];
@@ -67,7 +67,12 @@ pub struct Limit {
     pub reason: String,
 }
 
-pub(super) fn solved(request: &Request, form: Option<Box<dyn ClosedForm>>, results: &Results) -> Found {
+/// The class of what was solved; `broken` is whether a premise of its model is.
+pub(super) fn solved(request: &Request, form: Option<Box<dyn ClosedForm>>, results: &Results, broken: bool) -> Found {
+    let rate = q::TRANSPORT_RATE.name;
+    if let Some(reason) = results.reason(rate).filter(|_| broken && results.get(rate).is_none()) {
+        return Found { class: Class::Unphysical, error: None, reason: reason.to_owned() };
+    }
     let error = form.and_then(|form| {
         let of = |q: &&&Quantity| Some((results.get(q.name)?, form.results().get(q.name).filter(|x| *x != 0.0)?));
         ASSESSED.iter().find_map(|q| of(&q)).map(|(value, exact)| (value / exact - 1.0).abs().max(ROUND_OFF))
@@ -93,7 +98,10 @@ fn attempt(registry: &Registry, request: &Request, overrides: &[String]) -> Foun
             failed(Class::Refused, reason)
         }
         Ok(problem) => match Context::quiet(|context| problem.run(context)) {
-            Ok(outcome) => solved(request, problem.solver().closed_form(), &outcome.results),
+            Ok(outcome) => {
+                let broken = outcome.regime.iter().any(|premise| premise.verdict == Verdict::Broken);
+                solved(request, problem.solver().closed_form(), &outcome.results, broken)
+            }
             Err(failure) => failed(failure.error.class(), failure.error.to_string()),
         },
     }

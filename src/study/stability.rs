@@ -74,7 +74,8 @@ fn classify(registry: &Registry, request: &Request, row: &Row) -> Found {
         _ => {
             let overrides = [&request.overrides[..], &row.point.overrides].concat();
             let problem = registry.load(&request.case, &overrides).ok();
-            solved(request, problem.and_then(|(_, problem)| problem.solver().closed_form()), &row.results)
+            let form = problem.and_then(|(_, problem)| problem.solver().closed_form());
+            solved(request, form, &row.results, !row.broken.is_empty())
         }
     }
 }

@@ -171,3 +171,16 @@ fn failures_of_two_fluids_name_their_cause() {
     let failure = solve("flow_theta06-two-fluid", &["flow.depth=", "flow.shields=0.12", "grid.cells=120"]).unwrap_err();
     assert!(!failure.error.to_string().contains("inf"), "{}", failure.error);
 }
+
+#[test]
+fn the_edge_of_the_moving_layer_is_the_limit_that_stability_finds() {
+    let scratch = Scratch::new();
+    let over = ["stability", "sheet_1d_type_b", "--over", "flow.shields=0.14:0.3:3", "--json"];
+    let found = scratch.bedload(over).exits(0).json();
+    let limit = &found["facts"]["limits"][0];
+    assert_eq!(limit["class"], "unphysical", "{found}");
+    assert!(limit["reason"].as_str().unwrap().starts_with("no layer of grains moves"), "{limit}");
+    // A creep rounds the edge over its last 2 %.
+    let edge = limit["holds"].as_f64().unwrap();
+    assert!((edge / (0.98 * 0.1535) - 1.0).abs() < 3e-3, "{edge}");
+}
