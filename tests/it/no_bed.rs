@@ -180,7 +180,7 @@ fn the_edge_of_the_moving_layer_is_the_limit_that_stability_finds() {
     let limit = &found["facts"]["limits"][0];
     assert_eq!(limit["class"], "unphysical", "{found}");
     assert!(limit["reason"].as_str().unwrap().starts_with("no layer of grains moves"), "{limit}");
-    // A creep rounds the edge over its last 2 %.
+    // The creep that rounds the edge has one of its own, 2 % lower.
     let edge = limit["holds"].as_f64().unwrap();
     assert!((edge / (0.98 * 0.1535) - 1.0).abs() < 3e-3, "{edge}");
 }
