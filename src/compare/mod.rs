@@ -8,6 +8,7 @@
 
 pub mod data;
 pub mod frame;
+mod headline;
 mod inputs;
 pub mod norms;
 mod numbers;

@@ -6,9 +6,11 @@ mod axis;
 mod canvas;
 mod document;
 mod draw;
+mod faults;
 mod grains;
 mod interface;
 mod layout;
+mod legend;
 mod live;
 mod map;
 mod png;
@@ -21,6 +23,7 @@ mod several;
 mod shell;
 mod stated;
 mod svg;
+mod text;
 mod theme;
 
 use std::fmt::Display;
@@ -29,6 +32,7 @@ use std::path::PathBuf;
 use crate::result::{Figure, Profile, Summary};
 
 pub use document::{Cell, Document, Section, document_html};
+pub use faults::faults;
 pub use grains::grains_svg;
 pub use map::{Corner, Map, MapPanel, Place, Trail, map_png};
 pub use png::png;

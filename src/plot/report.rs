@@ -1,4 +1,4 @@
-//! The page of a run: numbers first, then what to doubt, the figures, the equations and the origin. One file, no
+//! The page of a run: the answer first, then its first figure, the numbers, what to doubt, the other figures, the equations and the origin. One file, no
 //! network, nothing that needs its script; light and dark as the reader has it.
 
 use std::fmt::Write as _;
@@ -57,11 +57,14 @@ pub fn report_html(page: &Page<'_>) -> String {
     );
     html += &error(summary, !page.figures.is_empty());
     html += &regime(summary);
+    html += &answer(&summary.answer());
+    let (first, others) = page.figures.split_at(page.figures.len().min(1));
+    html += &figures(first);
     html += &results(summary);
     html += &balances(summary);
     html += &validity(summary);
     html += &page.animation.map(animation_html).unwrap_or_default();
-    html += &figures(page.figures);
+    html += &figures(others);
     if let Some((drawing, caption)) = page.drawing {
         html += &format!(
             "<figure id=\"drawing\"><div class=\"wide\">{drawing}</div><figcaption>{}</figcaption></figure>\n",
@@ -79,6 +82,15 @@ pub fn report_html(page: &Page<'_>) -> String {
         escape(page.case_toml.trim_end())
     );
     html + &foot()
+}
+
+/// What is known, in a few lines: names and texts.
+pub(super) fn answer(lines: &[(String, String)]) -> String {
+    let mut items = String::new();
+    for (name, text) in lines {
+        items += &format!("<dt>{}</dt><dd>{}</dd>", escape(name), escape(text));
+    }
+    if items.is_empty() { items } else { format!("<section class=\"answer\" id=\"answer\"><dl>{items}</dl></section>\n") }
 }
 
 /// What went wrong, before everything else, and whether a state was drawn nevertheless.
@@ -333,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_says_the_numbers_first_and_every_digit_on_hover() {
+    fn the_page_says_the_answer_first_then_a_figure_then_the_tables_and_every_digit_on_hover() {
         let (profile, summary) = samples::laminar_bed();
         let figures = profile_figures(&profile, &summary);
         let toml = "format = 1";
@@ -347,17 +359,21 @@ mod tests {
             notes: &[],
         });
         let order = [
+            "<h1>",
             "1 closure outside",
+            "id=\"answer\"",
+            "<dt>transport rate</dt>",
+            "<figure",
             "<h2>Results",
             "<h2>Balances",
             "Used outside",
-            "<figure",
             "Equations solved",
             "<h2>Cost",
             "<details",
         ];
         let places: Vec<usize> = order.iter().map(|text| html.find(text).unwrap()).collect();
         assert!(places.is_sorted(), "{places:?}");
+        assert!(html.find("<table").unwrap() > html.find("</figure>").unwrap(), "a table before the first figure");
         assert!(html.contains("transport_rate_m2_s = 3.3103e-5") && html.contains("33.10&nbsp;mm²/s"));
         assert!(html.contains("the phases move together"));
         assert_eq!(html.matches("http://").count(), html.matches("http://www.w3.org/2000/svg").count());
