@@ -9,9 +9,7 @@ use serde_json::{Value, json};
 use super::progress::Progress;
 use super::{Answers, CliError, Verb, say, word};
 use crate::case::{Case, for_model};
-use crate::compare::{
-    Align, CompareError, Comparison, Request, Stated, Subject, compare, data, of_one_kind,
-};
+use crate::compare::{Align, CompareError, Comparison, Request, Stated, Subject, compare, data, of_one_kind};
 use crate::model::Problem;
 use crate::model::Registry;
 use crate::output::{Compared, prepare_comparison, read_run, write_comparison};

@@ -16,9 +16,7 @@ use crate::model::{Problem, Registry};
 use crate::output::{
     CHECKPOINT, Folder, Mode, OutputError, Written, default_folder, write_failure, write_outcome, write_running,
 };
-use crate::result::{
-    Checkpoints, Context, Cost, ErrorReport, Frames, Premise, Status, Summary, Validity, Verdict,
-};
+use crate::result::{Checkpoints, Context, Cost, ErrorReport, Frames, Premise, Status, Summary, Validity, Verdict};
 use crate::runtime::cost::peak_memory_mb;
 use crate::units::significant;
 

@@ -8,8 +8,7 @@ impl Comparison {
     /// A velocity, or else the first column in common, and the transport rate.
     #[must_use]
     pub fn headline(&self, subject: usize) -> String {
-        let rows: Vec<&NormRow> =
-            self.norms.iter().filter(|n| n.subject == subject && n.deviation.is_some()).collect();
+        let rows: Vec<&NormRow> = self.norms.iter().filter(|n| n.subject == subject && n.deviation.is_some()).collect();
         let column = |wanted: &dyn Fn(&NormRow) -> bool| rows.iter().find(|n| wanted(n));
         let velocity = column(&|n| n.quantity.name == quantity::U_MIXTURE.name)
             .or(column(&|n| n.quantity.unit == quantity::U_MIXTURE.unit))

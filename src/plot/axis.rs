@@ -260,7 +260,10 @@ mod tests {
         let axis = Axis::named("class", ["holds", "fails"].map(String::from).to_vec());
         let ruler = Ruler::new(&axis, [0.0].into_iter(), (0.0, 100.0), 7);
         assert_eq!(ruler.limits, (-0.5, 1.5));
-        assert_eq!(ruler.ticks.iter().map(|t| (t.at, t.label.as_str())).collect::<Vec<_>>(), [(0.0, "holds"), (1.0, "fails")]);
+        assert_eq!(
+            ruler.ticks.iter().map(|t| (t.at, t.label.as_str())).collect::<Vec<_>>(),
+            [(0.0, "holds"), (1.0, "fails")]
+        );
     }
 
     #[test]

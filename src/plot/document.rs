@@ -1,6 +1,7 @@
 //! A page of tables and figures that is not that of a run: the same style, the same escaping.
 
-use super::report::{answer, figures, pairs};
+use super::answer::answer;
+use super::report::{figures, pairs};
 use super::shell::{foot, head, typeset};
 use super::svg::escape;
 use crate::result::Figure;
@@ -66,7 +67,7 @@ pub fn document_html(page: &Document<'_>) -> String {
     for section in page.sections {
         html += &match section {
             Section::Table { heading, lead, head, rows } => table(heading, lead, head, rows),
-            Section::Answer(lines) => answer(lines),
+            Section::Answer(lines) => answer(lines, false),
             Section::Warnings(texts) if texts.is_empty() => String::new(),
             Section::Warnings(texts) => {
                 let texts: String = texts.iter().map(|t| format!("<p>{}</p>", escape(t))).collect();

@@ -33,9 +33,10 @@ pub fn faults(figure: &Figure) -> Result<Vec<String>, PlotError> {
                 found.push(format!("panel {}: {:?} is outside at ({x}, {y})", i + 1, curve.name));
             }
         }
-        found.extend(unnamed(figure, panel).map(|curve| {
-            format!("panel {}: a curve of colour {} has no entry in a legend", i + 1, curve.colour)
-        }));
+        found.extend(
+            unnamed(figure, panel)
+                .map(|curve| format!("panel {}: a curve of colour {} has no entry in a legend", i + 1, curve.colour)),
+        );
         let entries = legend::named(figure, panel).filter(|(_, curve)| !figure.is_drawn(curve));
         found.extend(entries.map(|(_, curve)| format!("panel {}: {:?} is not drawn", i + 1, curve.name)));
         let twin = figure.panels.iter().take(i).position(|other| same(figure, other, panel));
@@ -49,9 +50,11 @@ fn overlaps(figure: &Figure, layout: &Layout) -> Result<Vec<String>, PlotError> 
     let mut all = texts(figure, layout);
     for (panel, frame) in figure.panels.iter().zip(&layout.frames) {
         let corner = frame.legend;
-        all.extend(legend::named(figure, panel).enumerate().filter_map(|(row, (_, curve))| {
-            Some(legend::entry(&curve.name, corner?, row))
-        }));
+        all.extend(
+            legend::named(figure, panel)
+                .enumerate()
+                .filter_map(|(row, (_, curve))| Some(legend::entry(&curve.name, corner?, row))),
+        );
     }
     let rooms: Vec<Rectangle> = all.iter().map(|text| text.room()).collect::<Result<_, _>>()?;
     let smaller = |r: Rectangle| (r.0 + SLACK, r.1 + SLACK, r.2 - SLACK, r.3 - SLACK);
@@ -73,7 +76,11 @@ fn overlaps(figure: &Figure, layout: &Layout) -> Result<Vec<String>, PlotError> 
 /// Curves that are drawn beside named ones, and named nowhere in the figure.
 fn unnamed<'a>(figure: &'a Figure, panel: &'a Panel) -> impl Iterator<Item = &'a Curve> {
     let is_named = |curve: &Curve| {
-        figure.panels.iter().flat_map(|panel| &panel.curves).any(|other| !other.name.is_empty() && other.looks_like(curve))
+        figure
+            .panels
+            .iter()
+            .flat_map(|panel| &panel.curves)
+            .any(|other| !other.name.is_empty() && other.looks_like(curve))
     };
     let several = panel.curves.iter().any(|curve| !curve.name.is_empty());
     let drawn = |curve: &&Curve| curve.text.is_empty() && !figure.pieces(panel, curve).is_empty();
@@ -103,7 +110,9 @@ mod tests {
 
     #[test]
     fn the_samples_have_none() {
-        for (profile, summary) in [samples::laminar_bed(), samples::two_fluid_bed(), samples::log_law(), samples::bingham_plane()] {
+        for (profile, summary) in
+            [samples::laminar_bed(), samples::two_fluid_bed(), samples::log_law(), samples::bingham_plane()]
+        {
             for figure in profile_figures(&profile, &summary).into_iter().chain([samples::convergence()]) {
                 assert_eq!(faults(&figure).unwrap(), Vec::<String>::new(), "{} of {}", figure.stem, summary.case);
             }
@@ -119,7 +128,8 @@ mod tests {
             line: Some(Dash::Solid),
             ..Curve::default()
         };
-        let panel = |scale| Panel { x: Axis::linear("u", "m/s"), curves: vec![curve("a", 1, scale), curve("b", 2, scale)] };
+        let panel =
+            |scale| Panel { x: Axis::linear("u", "m/s"), curves: vec![curve("a", 1, scale), curve("b", 2, scale)] };
         let figure = Figure {
             stem: "f".into(),
             caption: String::new(),
@@ -135,7 +145,9 @@ mod tests {
             faults(&figure).unwrap().join("; ")
         };
         assert!(with(&|f| f.panels[1] = f.panels[0].clone()).contains("panels 1 and 2 are the same"));
-        assert!(with(&|f| f.panels.iter_mut().for_each(|p| p.curves[1].name.clear())).contains("colour 2 has no entry"));
+        assert!(
+            with(&|f| f.panels.iter_mut().for_each(|p| p.curves[1].name.clear())).contains("colour 2 has no entry")
+        );
         assert!(with(&|f| f.panels[0].x.title.clear()).contains("no title"));
         let long = "a_title_of_one_word_that_cannot_be_broken_into_lines_and_is_wider_than_its_panel";
         assert!(with(&|f| f.panels.iter_mut().for_each(|p| p.x.title = long.into())).contains("lies on"));

@@ -58,7 +58,12 @@ impl Stack {
 }
 
 /// A place in the frame that neither a curve nor a level crosses, as near to a corner as there is one.
-pub(super) fn free_place(figure: &Figure, panel: &Panel, (x, y): (&Ruler, &Ruler), size: (f64, f64)) -> Option<(f64, f64)> {
+pub(super) fn free_place(
+    figure: &Figure,
+    panel: &Panel,
+    (x, y): (&Ruler, &Ruler),
+    size: (f64, f64),
+) -> Option<(f64, f64)> {
     const MARGIN: f64 = 9.0;
     const STEPS: u32 = 24;
     let mut lines: Vec<Vec<(f64, f64)>> = panel
@@ -69,7 +74,8 @@ pub(super) fn free_place(figure: &Figure, panel: &Panel, (x, y): (&Ruler, &Ruler
         .collect();
     for curve in &panel.curves {
         let bars = curve.points.iter().zip(&curve.errors).filter_map(|(point, error)| point.zip(*error));
-        let drawn = bars.filter(|((at, up), e)| [at - e, at + e].iter().all(|x| panel.x.holds(*x)) && figure.y.holds(*up));
+        let drawn =
+            bars.filter(|((at, up), e)| [at - e, at + e].iter().all(|x| panel.x.holds(*x)) && figure.y.holds(*up));
         lines.extend(drawn.map(|((at, up), e)| vec![(x.at(at - e), y.at(up)), (x.at(at + e), y.at(up))]));
         for piece in figure.pieces(panel, curve).iter().filter(|_| !curve.text.is_empty()) {
             let half = width(&curve.text, SMALL).unwrap_or(0.0) / 2.0;

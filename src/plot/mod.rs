@@ -2,6 +2,7 @@
 //! and [`png()`] draw them, [`report_html`] sets the page. [`shared_figures`] and [`document_html`] do so for several.
 
 mod animation;
+mod answer;
 mod axis;
 mod canvas;
 mod document;
@@ -18,6 +19,7 @@ mod report;
 #[cfg(test)]
 mod samples;
 mod section;
+mod section_page;
 mod series;
 mod several;
 mod shell;
@@ -37,7 +39,8 @@ pub use grains::grains_svg;
 pub use map::{Corner, Map, MapPanel, Place, Trail, map_png};
 pub use png::png;
 pub use report::{Page, report_html};
-pub use section::{section_map, section_svg};
+pub use section::section_map;
+pub use section_page::section_svg;
 pub use series::series_figures;
 pub use several::{Trace, shared_figures};
 pub use svg::svg;

@@ -9,6 +9,7 @@ use crate::result::{Animation, Reported, Statement, Status, Summary};
 use crate::units::{readable, readable_mean, significant};
 
 use super::animation::animation_html;
+use super::answer::{answer, subscripts};
 use super::shell::{foot, head, typeset};
 use super::stated::{flow, statement};
 use super::svg::{escape, svg};
@@ -57,20 +58,20 @@ pub fn report_html(page: &Page<'_>) -> String {
     );
     html += &error(summary, !page.figures.is_empty());
     html += &regime(summary);
-    html += &answer(&summary.answer());
+    html += &answer(&summary.answer(), true);
     let (first, others) = page.figures.split_at(page.figures.len().min(1));
     html += &figures(first);
     html += &results(summary);
     html += &balances(summary);
     html += &validity(summary);
     html += &page.animation.map(animation_html).unwrap_or_default();
-    html += &figures(others);
     if let Some((drawing, caption)) = page.drawing {
         html += &format!(
             "<figure id=\"drawing\"><div class=\"wide\">{drawing}</div><figcaption>{}</figcaption></figure>\n",
             escape(caption)
         );
     }
+    html += &figures(others);
     for note in page.notes {
         html += &format!("<p class=\"note\">{}</p>\n", escape(note));
     }
@@ -82,15 +83,6 @@ pub fn report_html(page: &Page<'_>) -> String {
         escape(page.case_toml.trim_end())
     );
     html + &foot()
-}
-
-/// What is known, in a few lines: names and texts.
-pub(super) fn answer(lines: &[(String, String)]) -> String {
-    let mut items = String::new();
-    for (name, text) in lines {
-        items += &format!("<dt>{}</dt><dd>{}</dd>", escape(name), escape(text));
-    }
-    if items.is_empty() { items } else { format!("<section class=\"answer\" id=\"answer\"><dl>{items}</dl></section>\n") }
 }
 
 /// What went wrong, before everything else, and whether a state was drawn nevertheless.
@@ -306,24 +298,6 @@ fn duration(seconds: f64) -> String {
     }
 }
 
-/// `u_max` with its index below the line.
-fn subscripts(symbol: &str) -> String {
-    let (mut html, mut below) = (String::new(), false);
-    for c in symbol.chars() {
-        if below && !(c.is_alphanumeric() || c == '*') {
-            html.push_str("</sub>");
-            below = false;
-        }
-        if c == '_' {
-            html.push_str("<sub>");
-            below = true;
-        } else {
-            html.push_str(&escape(&if c == '-' { '−' } else { c }.to_string()));
-        }
-    }
-    html + if below { "</sub>" } else { "" }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::shell::tests::has_one_script;
@@ -335,10 +309,6 @@ mod tests {
     fn numbers_and_symbols_are_typeset() {
         assert_eq!(typeset("3.310e-5 kg/(m s)"), "3.310 × 10<sup>−5</sup>&nbsp;kg/(m s)");
         assert_eq!(typeset("-0.25"), "−0.25");
-        assert_eq!(subscripts("q_p/φ"), "q<sub>p</sub>/φ");
-        assert_eq!(subscripts("u_*"), "u<sub>*</sub>");
-        assert_eq!(subscripts("U - u_p"), "U − u<sub>p</sub>");
-        assert_eq!(subscripts("z(u_max)"), "z(u<sub>max</sub>)");
         assert_eq!(duration(2.1e-4), "210 µs");
         let shown = [730.0, 0.0, 0.5].map(|x| value(&Reported { value: Some(x), stderr: None, reason: None }, "1"));
         assert_eq!(shown, ["730", "0", "0.5000"].map(str::to_owned));

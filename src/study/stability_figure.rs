@@ -1,10 +1,10 @@
 //! The figure of a map of stability: what came of each point, and the limits between them.
 
+use super::Row;
 use super::chart::time_text;
 use super::curves::line;
 use super::limits::{Found, Limit};
 use super::range::{Varied, number_and_unit};
-use super::Row;
 use crate::result::{Axis, Class, Curve, Dash, Figure, Marker, Panel, Scale};
 
 fn marker(class: Class) -> Marker {
@@ -113,12 +113,7 @@ pub(super) fn figure(
 }
 
 /// The limits as lines: across the whole panel over one key, along the rows of a second one, numbers joined from row to row.
-fn borders(
-    kind: Height,
-    rows: &[Row],
-    limits: &[Limit],
-    second: &dyn Fn(&Row) -> Option<f64>,
-) -> Vec<Curve> {
+fn borders(kind: Height, rows: &[Row], limits: &[Limit], second: &dyn Fn(&Row) -> Option<f64>) -> Vec<Curve> {
     let at = |limit: &Limit| 0.5 * (limit.holds + limit.fails);
     let across = |limit: &Limit, low: f64, high: f64| vec![Some((at(limit), low)), Some((at(limit), high)), None];
     let row_of = |limit: &Limit| rows.iter().find(|row| row.point.series == limit.series).and_then(second);

@@ -132,7 +132,8 @@ impl Sheet<'_> {
             line("", (corner, corner), (1.0, 1.0)),
         ];
         let middle = |a: f64, b: f64| (a * b).sqrt();
-        let region = |text: &str, at: (f64, f64)| Curve { text: text.into(), points: vec![Some(at)], ..Curve::default() };
+        let region =
+            |text: &str, at: (f64, f64)| Curve { text: text.into(), points: vec![Some(at)], ..Curve::default() };
         let regions = [
             region("turbulent", (middle(left, 1.0), middle(1.0, high))),
             region("free fall", (middle(1.0, right), middle(1.0, high))),
