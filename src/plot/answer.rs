@@ -6,9 +6,9 @@ use super::svg::escape;
 /// What is known, in a few lines: names and texts. `symbols` are typeset: those of a run, where a study writes its keys.
 pub(super) fn answer(lines: &[(String, String)], symbols: bool) -> String {
     let word = |word: &str| {
-        let number = word.starts_with(|c: char| c.is_ascii_digit() || c == '-' || c == '+');
+        let (core, rest) = word.split_at(word.trim_end_matches([',', ';', ':', '.', ')']).len());
         match word {
-            _ if number && word.contains('e') => typeset(word),
+            _ if core.parse::<f64>().is_ok() => typeset(core) + &escape(rest),
             _ if symbols && word.contains('_') => subscripts(word),
             _ => escape(word),
         }

@@ -116,6 +116,49 @@ fn what_a_page_complains_of_is_seen() {
 }
 
 #[test]
+fn what_cannot_be_read_on_a_page_is_seen() {
+    let Some(browser) = chromium() else { return };
+    let scratch = Scratch::new();
+    let text = |x: i32, words: &str| format!("<text x=\"{x}\" y=\"50\" font-size=\"12\">{words}</text>");
+    let curve = |panel: i32, name: &str, end: i32, points: &str| {
+        let group = format!(
+            "<g class=\"curve\" data-panel=\"{panel}\" data-key=\"{panel}.0\" data-name=\"{name}\" data-points=\"{points}\">"
+        );
+        format!("{group}<path d=\"M10 10L{end} 20\" stroke=\"#000\"/></g>")
+    };
+    let pane = "<rect class=\"pane\" x=\"0\" y=\"0\" width=\"400\" height=\"90\" fill=\"none\"/>";
+    let drawing = [
+        text(20, "pressure"),
+        text(40, "velocity"),
+        text(780, "beyond"),
+        pane.repeat(2),
+        curve(0, "long", 700, "1,2 3,4"),
+        curve(1, "short", 300, "1,2 3,4"),
+        format!("<g class=\"key\" data-key=\"7.0\">{}</g>", text(200, "nothing")),
+    ];
+    let table = "<table><tr><td>first</td></tr></table>";
+    let plot = format!("<svg class=\"plot\" width=\"800\" height=\"100\">{}</svg>", drawing.concat());
+    let map = format!("<svg class=\"map\" width=\"800\" height=\"100\">{}</svg>", text(20, "y (m)"));
+    scratch.write(
+        "bad.html",
+        format!("<!DOCTYPE html><h1>t</h1>{table}<figure>{plot}{map}</figure><script>{PROBE}</script>"),
+    );
+    let (dom, _) = open(&browser, &scratch, "bad.html", (false, WIDE));
+    for fault in [
+        "velocity lies on pressure",
+        "beyond leaves the sheet",
+        "long leaves its panel",
+        "nothing is not drawn",
+        "panel 1 is that of 0",
+        "not two axes and a scale with units",
+        "ordered&quot;:false",
+    ] {
+        assert!(dom.contains(fault), "{fault}: {dom}");
+    }
+    assert!(!dom.contains("short leaves") && !dom.contains("pressure leaves"));
+}
+
+#[test]
 fn profiles_answer_with_the_values_of_the_table_at_one_elevation_in_all_panels() {
     let Some(browser) = chromium() else { return };
     let scratch = Scratch::new();
@@ -197,7 +240,7 @@ fn pages_of_studies_and_comparisons_answer_too() {
 fn a_map_of_a_section_has_axes_and_a_scale() {
     let Some(browser) = chromium() else { return };
     let scratch = Scratch::new();
-    for case in ["section_2d_square", "section_2d_square_bed", "section_2d_cavity_bn5", "section_3d_square_bed"] {
+    for case in ["section_2d_square", "section_2d_square_bed", "section_2d_cavity_bn5"] {
         scratch.bedload(["run", case, "--out", case]).exits(0);
         for answer in examine(&browser, &scratch, &format!("{case}/report.html")) {
             assert_eq!(answer["maps"], 1, "{case}");
