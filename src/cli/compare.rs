@@ -10,16 +10,13 @@ use super::progress::Progress;
 use super::run::not_strictly;
 use super::{Answers, CliError, Verb, say, word};
 use crate::case::{Case, for_model};
-use crate::compare::{
-    Align, CompareError, Comparison, NormRow, Request, Stated, Subject, compare, data, of_one_kind, percent,
-};
+use crate::compare::{Align, CompareError, Comparison, Request, Stated, Subject, compare, data, of_one_kind};
 use crate::model::Problem;
 use crate::model::Registry;
 use crate::output::{Compared, prepare_comparison, read_run, write_comparison};
 use crate::result::Context;
-use crate::result::{Cost, ErrorReport, Provenance, Status, Verdict, quantity};
+use crate::result::{Cost, ErrorReport, Provenance, Status, Verdict};
 use crate::runtime::cost::peak_memory_mb;
-use crate::units::significant;
 
 /// Set cases, runs and measured profiles side by side: norms, numbers, figure. The first one is the reference.
 #[derive(Clone, Debug, Args)]
@@ -240,7 +237,7 @@ impl Compare {
         let mut line = |label: &str, text: String| lines.push(format!("  {label:<16} {text}"));
         let others = comparison.subjects.iter().enumerate().skip(1);
         for (i, subject) in others.clone().take(MAX_SUBJECTS) {
-            line("against it", format!("{}: {}", subject.name, headline(comparison, i)));
+            line("against it", format!("{}: {}", subject.name, comparison.headline(i)));
         }
         let left = others.count().saturating_sub(MAX_SUBJECTS);
         if left > 0 {
@@ -327,32 +324,4 @@ fn stated_by(registry: &Registry, run: &Path) -> Option<Stated> {
     let text = std::fs::read_to_string(run.join("case.toml")).ok()?;
     let (case, problem) = registry.parse("run", "case.toml", text, &[]).ok()?;
     stated(&case, &problem)
-}
-
-/// A velocity, or else the first column in common, and the transport rate.
-fn headline(comparison: &Comparison, subject: usize) -> String {
-    let rows: Vec<&NormRow> =
-        comparison.norms.iter().filter(|n| n.subject == subject && n.deviation.is_some()).collect();
-    let column = |wanted: &dyn Fn(&NormRow) -> bool| rows.iter().find(|n| wanted(n));
-    let velocity = column(&|n| n.quantity.name == quantity::U_MIXTURE.name)
-        .or(column(&|n| n.quantity.unit == quantity::U_MIXTURE.unit))
-        .or(rows.first());
-    let mut parts = Vec::new();
-    if let Some((row, d)) = velocity.and_then(|n| Some((n, n.deviation?))) {
-        let l2 = d.l2_relative.map_or_else(String::new, |x| format!("L2 {}, ", percent(x)));
-        let largest = comparison.value(d.linf, row.quantity);
-        let at = comparison.value(d.linf_at, &quantity::Z);
-        parts.push(format!("{} {l2}at most {largest} (z {at}) over {} levels", row.quantity.title, d.levels));
-        parts.extend(row.sigmas.map(|s| format!("{} sigma", significant(s.rms, 3))));
-    }
-    // Of sections there is the flux alone.
-    let rate = [&quantity::TRANSPORT_RATE, &quantity::BED_FLUX].into_iter().find_map(|rate| {
-        let row = comparison.numbers.iter().find(|n| n.quantity.name == rate.name)?;
-        Some((rate, row.differences.get(subject).copied().flatten()?))
-    });
-    if let Some((rate, difference)) = rate {
-        let sign = if difference > 0.0 { "+" } else { "" };
-        parts.push(format!("{} {sign}{}", rate.title, percent(difference)));
-    }
-    if parts.is_empty() { "no common elevation".into() } else { parts.join("; ") }
 }

@@ -16,12 +16,9 @@ use crate::model::{Problem, Registry};
 use crate::output::{
     CHECKPOINT, Folder, Mode, OutputError, Written, default_folder, write_failure, write_outcome, write_running,
 };
-use crate::result::{
-    Balance, Checkpoints, Context, Cost, ErrorReport, Frames, Premise, Reported, Status, Summary, Validity, Verdict,
-    quantity,
-};
+use crate::result::{Checkpoints, Context, Cost, ErrorReport, Frames, Premise, Status, Summary, Validity, Verdict};
 use crate::runtime::cost::peak_memory_mb;
-use crate::units::{CommonUnits, readable, readable_error, significant};
+use crate::units::significant;
 
 /// Code of an answer that rests on a broken premise, where that is no answer (`--strict`).
 pub(super) const BROKEN_PREMISE: &str = "broken-premise";
@@ -243,29 +240,12 @@ impl Frames for Camera<'_> {
 
 /// What a reader wants to know first, in at most twelve lines.
 fn closing(written: &Written, out: &str, case: &str) -> String {
-    let Summary { results, balances, validity, cost, model, .. } = &written.summary;
+    let Summary { balances, validity, cost, model, .. } = &written.summary;
     let mut lines: Vec<String> = broken(&written.summary).into_iter().collect();
     lines.push(format!("{}: {model}", written.summary.case));
     let mut line = |label: &str, text: String| lines.push(format!("  {label:<16} {text}"));
-    let shown = [&quantity::TRANSPORT_RATE].into_iter().chain(HEADLINES.iter().copied().flatten().copied());
-    let units = CommonUnits::of(shown.filter_map(|q| Some((results.get(q.name)?, q.unit))));
-    let value = |q: &'static quantity::Quantity| results.get(q.name).map(|x| units.readable(x, q.unit));
-    if let Some(rate) = value(&quantity::TRANSPORT_RATE) {
-        let star = value(&quantity::TRANSPORT_RATE_DIMENSIONLESS).map(|x| format!("  (Q* = {x})"));
-        line("transport rate", format!("{rate}{}  {}", star.unwrap_or_default(), trust(&written.summary)));
-    } else if let Some(why) = results.reason(quantity::TRANSPORT_RATE.name) {
-        line("transport rate", format!("none: {why}"));
-    }
-    // Between planes the rate of transport is known per width.
-    let of_a_section = |group: &&&[&quantity::Quantity]| group.contains(&&quantity::BED_FLUX);
-    let per_width = value(&quantity::TRANSPORT_RATE).is_some();
-    for group in HEADLINES.iter().filter(|group| !(per_width && of_a_section(group))) {
-        let given: Vec<_> =
-            group.iter().filter_map(|q| Some((q.title, format!("{} {}", q.symbol, value(q)?)))).collect();
-        if let Some((title, _)) = given.first() {
-            let text: Vec<&str> = given.iter().map(|(_, text)| text.as_str()).collect();
-            line(title, text.join("   "));
-        }
+    for (label, text) in written.summary.answer() {
+        line(&label, text);
     }
     if !balances.is_empty() {
         let text: Vec<String> = balances.iter().map(|b| format!("{} {:.0e}", b.name, b.relative.abs())).collect();
@@ -311,58 +291,3 @@ fn broken(summary: &Summary) -> Option<String> {
     };
     Some(format!("broken premise: {}: {}{more}", first.line(), first.why))
 }
-
-/// What the transport rate is worth.
-fn trust(summary: &Summary) -> String {
-    let known = summary.results.iter().find(|(name, _)| *name == quantity::TRANSPORT_RATE.name);
-    if let Some((_, Reported { value: Some(value), stderr, reason })) = known {
-        let error = stderr.map(|error| readable_error(*value, error, quantity::TRANSPORT_RATE.unit));
-        match (error, reason) {
-            (Some(known), _) => return known.unwrap_or_else(|| "error unknown".into()),
-            (None, Some(reason)) => return format!("error unknown: {reason}"),
-            (None, None) => {}
-        }
-    }
-    let result = |quantity: &quantity::Quantity| summary.results.get(quantity.name);
-    if let (Some(_), Some(time)) = (result(&quantity::RATE_AMPLITUDE), result(&quantity::AVERAGED_TIME)) {
-        return format!("mean over {}", readable(time, "s"));
-    }
-    if let Some(mean) = result(&quantity::RATE_MEAN) {
-        return format!("at the last instant; {} over the later half", readable(mean, quantity::RATE_MEAN.unit));
-    }
-    let lambda = |key: &str| summary.regularisation.get(key).and_then(Value::as_f64);
-    let lambda = lambda("lambda_scaled").or_else(|| lambda("lambda_1_s"));
-    match (summary.results.get(quantity::REGULARISATION_RATE.name), lambda) {
-        (Some(error), _) => format!("{:+.2e} by the regularisation", error),
-        (None, Some(lambda)) if lambda > 0.0 => "regularised".into(),
-        (None, Some(_)) => "exact yield".into(),
-        (None, None) if summary.regularisation.contains_key("granular_temperature_m2_s2") => {
-            "order 2 in its cells".into()
-        }
-        // A solver without a word of its error may be anything; a closed form shows itself in its balances.
-        (None, None) if at_round_off(&summary.balances) => "closed form, exact to round-off".into(),
-        (None, None) => "error unknown".into(),
-    }
-}
-
-/// Whether there are balances, and all of them close to round-off.
-fn at_round_off(balances: &[Balance]) -> bool {
-    const ROUND_OFF: f64 = 1e-9;
-    !balances.is_empty() && balances.iter().all(|balance| balance.relative.abs() <= ROUND_OFF)
-}
-
-/// Numbers of the closing lines, a line each, named by the first.
-const HEADLINES: &[&[&quantity::Quantity]] = &[
-    &[&quantity::SHIELDS, &quantity::U_STAR, &quantity::SHIELDS_BED],
-    &[&quantity::RATE_AMPLITUDE, &quantity::RATE_FORWARD, &quantity::RATE_BACKWARD],
-    &[&quantity::FLOW_RATE, &quantity::BED_FLUX],
-    &[&quantity::STREAM_MAX, &quantity::VORTEX_Z, &quantity::UNYIELDED_SHARE, &quantity::UNYIELDED_SHARE_ERROR],
-    &[&quantity::MOBILE_DEPTH, &quantity::YIELD_LEVEL],
-    &[&quantity::LAYER_THICKNESS, &quantity::TEMPERATURE_MAX, &quantity::GROWTH_RATE],
-    &[&quantity::U_MAX, &quantity::MEAN_VELOCITY],
-    &[&quantity::BINGHAM, &quantity::HALF_PLUG, &quantity::PLUG_VELOCITY],
-    &[&quantity::PLUG_SHARE, &quantity::DEAD_SHARE, &quantity::YIELD_OVER_CRITICAL],
-    &[&quantity::PHI_BULK, &quantity::BED_LEVEL, &quantity::COORDINATION],
-    &[&quantity::RESTITUTION, &quantity::CONTACT_TIME, &quantity::TANGENTIAL_VELOCITY],
-    &[&quantity::SURFACE_VELOCITY, &quantity::INERTIAL_NUMBER_FILM, &quantity::ROUGHNESS_LENGTH],
-];

@@ -9,6 +9,7 @@
 pub mod data;
 mod error;
 pub mod frame;
+mod headline;
 mod inputs;
 pub mod norms;
 mod numbers;

@@ -1,4 +1,4 @@
-//! The page of a comparison: numbers first, then what to bear in mind, the figures and the origin.
+//! The page of a comparison: the answer, the first figure, what to bear in mind, the numbers, the other figures and the origin.
 
 use super::{Comparison, Deviation, Kind, NormRow, NumberRow};
 use crate::plot::{Cell, Document, Section, document_html};
@@ -16,13 +16,16 @@ impl Comparison {
         let (reference, others) = names.split_first().map_or(("", &[][..]), |(first, rest)| (*first, rest));
         let title = format!("{reference} against {}", others.join(", "));
         let units = if self.scaled { "divided by each one's scales" } else { "in SI units" };
+        let (first, others) = figures.split_at(figures.len().min(1));
         let sections = [
-            self.subjects_section(),
-            self.norms_section(),
-            self.numbers_section(),
-            self.inputs_section(),
+            Section::Answer(self.answer()),
+            Section::Figures(first),
             Section::Warnings(self.warnings()),
-            Section::Figures(figures),
+            self.numbers_section(),
+            self.norms_section(),
+            self.inputs_section(),
+            self.subjects_section(),
+            Section::Figures(others),
             origin(cost, provenance),
         ];
         let subtitle = format!("The reference is {reference}; {}, {units}.", self.align.datum());

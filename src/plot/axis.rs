@@ -30,6 +30,7 @@ impl Ruler {
     pub fn new(axis: &Axis, values: impl Iterator<Item = f64>, span: (f64, f64), labels: usize) -> Self {
         let limits = limits(axis, values);
         let (ticks, exponent) = match axis.scale {
+            _ if !axis.names.is_empty() => (named_ticks(&axis.names), 0),
             Scale::Linear => linear_ticks(limits, labels),
             Scale::Log => (log_ticks(limits, labels), 0),
         };
@@ -67,6 +68,9 @@ const HEAD_ROOM: f64 = 0.05;
 
 /// Ends of the axis: known ends, widened to the data; zero where the data start near it; never two equal numbers.
 fn limits(axis: &Axis, values: impl Iterator<Item = f64>) -> (f64, f64) {
+    if !axis.names.is_empty() {
+        return (-0.5, axis.names.len() as f64 - 0.5);
+    }
     let range = values.filter(|&v| axis.holds(v)).fold(None, |range, v| match range {
         None => Some((v, v)),
         Some((low, high)) => Some((v.min(low), v.max(high))),
@@ -145,6 +149,11 @@ fn linear_ticks((low, high): (f64, f64), labels: usize) -> (Vec<Tick>, i32) {
         })
         .collect();
     (ticks, exponent)
+}
+
+/// A tick for each name.
+fn named_ticks(names: &[String]) -> Vec<Tick> {
+    names.iter().enumerate().map(|(i, name)| Tick { at: i as f64, label: name.clone() }).collect()
 }
 
 /// Powers of ten with labels, and the multiples between them where there is room.
@@ -244,6 +253,17 @@ mod tests {
         let walls = Axis { ends: Some((0.0, 65.0)), ..axis };
         assert_eq!(limits(&walls, [0.2, 64.8].into_iter()), (0.0, 65.0));
         assert!(limits(&walls, [0.2, 70.0].into_iter()).1 > 70.0);
+    }
+
+    #[test]
+    fn kinds_stand_at_their_names_whatever_the_data() {
+        let axis = Axis::named("class", ["holds", "fails"].map(String::from).to_vec());
+        let ruler = Ruler::new(&axis, [0.0].into_iter(), (0.0, 100.0), 7);
+        assert_eq!(ruler.limits, (-0.5, 1.5));
+        assert_eq!(
+            ruler.ticks.iter().map(|t| (t.at, t.label.as_str())).collect::<Vec<_>>(),
+            [(0.0, "holds"), (1.0, "fails")]
+        );
     }
 
     #[test]

@@ -37,7 +37,7 @@ pub(super) struct Stroke {
 }
 
 /// Where a text stands on its anchor.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Align {
     Left,
     Centre,

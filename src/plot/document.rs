@@ -1,5 +1,6 @@
 //! A page of tables and figures that is not that of a run: the same style, the same escaping.
 
+use super::answer::answer;
 use super::report::{figures, pairs};
 use super::shell::{foot, head, typeset};
 use super::svg::escape;
@@ -19,6 +20,8 @@ pub struct Document<'a> {
 /// One part of a page.
 #[derive(Clone, Debug)]
 pub enum Section<'a> {
+    /// what was found, in a few lines: names and texts
+    Answer(Vec<(String, String)>),
     /// a table
     Table {
         /// its heading
@@ -64,6 +67,7 @@ pub fn document_html(page: &Document<'_>) -> String {
     for section in page.sections {
         html += &match section {
             Section::Table { heading, lead, head, rows } => table(heading, lead, head, rows),
+            Section::Answer(lines) => answer(lines, false),
             Section::Warnings(texts) if texts.is_empty() => String::new(),
             Section::Warnings(texts) => {
                 let texts: String = texts.iter().map(|t| format!("<p>{}</p>", escape(t))).collect();

@@ -5,9 +5,11 @@ use plotters::drawing::DrawingArea;
 use plotters::prelude::DrawingBackend;
 
 use super::PlotError;
-use super::canvas::{Align, Canvas, Medium, Stroke};
-use super::layout::{Frame, Layout, ROW, SAMPLE, SAMPLE_GAP, title};
-use super::theme::{BOLD, HAIR, LABEL, Part, Role, SMALL};
+use super::canvas::{Canvas, Medium, Stroke};
+use super::layout::{Frame, Layout};
+use super::legend::{self, ROW, SAMPLE};
+use super::text::texts;
+use super::theme::{BOLD, HAIR, Part, Role};
 use crate::result::{Curve, Dash, Figure, Panel};
 
 const TICK: f64 = 5.0;
@@ -24,35 +26,23 @@ pub(super) fn draw<DB: DrawingBackend>(
     layout: &Layout,
 ) -> Result<(), PlotError> {
     let canvas = Canvas { area, medium };
-    let (bottom, top) = layout.y.span;
     for (i, (panel, frame)) in figure.panels.iter().zip(&layout.frames).enumerate() {
         tint(&canvas, figure, layout, frame)?;
         for level in figure.levels.iter().filter(|l| layout.y.holds(l.y)) {
             let y = layout.y.at(level.y);
             canvas.line(&[(frame.x.span.0, y), (frame.x.span.1, y)], LEVEL)?;
         }
-        axes(&canvas, layout, frame, i == 0)?;
-        for (c, curve) in panel.curves.iter().enumerate() {
+        axes(&canvas, layout, frame)?;
+        // A curve of words alone is no curve: its words are written with the other texts.
+        for (c, curve) in panel.curves.iter().enumerate().filter(|(_, curve)| curve.text.is_empty()) {
             canvas.open(Part::Curve, i, c)?;
             draw_curve(&canvas, figure, panel, curve, (layout, frame))?;
             canvas.close()?;
         }
-        legend(&canvas, panel, i, frame)?;
-        let centre = (frame.x.span.0 + frame.x.span.1) / 2.0;
-        canvas.text(&title(&panel.x, &frame.x), (centre, bottom + 36.0), LABEL, Align::Centre, Role::Ink)?;
-        let letter = figure.letter(i);
-        if !letter.is_empty() {
-            canvas.text(&letter, (frame.x.span.0, top - 6.0), LABEL, Align::Left, Role::Ink)?;
-        }
+        draw_legend(&canvas, (figure, panel), i, frame)?;
     }
-    let middle = (bottom + top) / 2.0;
-    canvas.text(&title(&figure.y, &layout.y), (layout.title_x, middle), LABEL, Align::Upward, Role::Ink)?;
-    if let Some(last) = layout.frames.last() {
-        for (level, y) in figure.levels.iter().zip(&layout.labels) {
-            if let Some(y) = *y {
-                canvas.text(&level.label, (last.x.span.1 + 7.0, y), SMALL, Align::Left, Role::Faint)?;
-            }
-        }
+    for text in texts(figure, layout) {
+        canvas.text(&text.text, text.at, text.size, text.align, text.role)?;
     }
     Ok(())
 }
@@ -73,13 +63,8 @@ fn tint<DB: DrawingBackend>(
     }
 }
 
-/// Frame, ticks inside on all four sides, numbers below and at the left of the first panel.
-fn axes<DB: DrawingBackend>(
-    canvas: &Canvas<'_, DB>,
-    layout: &Layout,
-    frame: &Frame,
-    numbered: bool,
-) -> Result<(), PlotError> {
+/// Frame, and ticks inside on all four sides.
+fn axes<DB: DrawingBackend>(canvas: &Canvas<'_, DB>, layout: &Layout, frame: &Frame) -> Result<(), PlotError> {
     let (left, right) = frame.x.span;
     let (bottom, top) = layout.y.span;
     for tick in &frame.x.ticks {
@@ -88,18 +73,12 @@ fn axes<DB: DrawingBackend>(
             canvas.line(&[(x, bottom), (x, bottom - length)], FRAME)?;
             canvas.line(&[(x, top), (x, top + length)], FRAME)?;
         }
-        if !tick.label.is_empty() {
-            canvas.text(&tick.label, (x, bottom + 16.0), SMALL, Align::Centre, Role::Ink)?;
-        }
     }
     for tick in &layout.y.ticks {
         let (y, length) = (layout.y.at(tick.at), if tick.label.is_empty() { MINOR_TICK } else { TICK });
         if y < bottom - 1.0 && y > top + 1.0 {
             canvas.line(&[(left, y), (left + length, y)], FRAME)?;
             canvas.line(&[(right, y), (right - length, y)], FRAME)?;
-        }
-        if numbered && !tick.label.is_empty() {
-            canvas.text(&tick.label, (left - 6.0, y + 0.36 * SMALL), SMALL, Align::Right, Role::Ink)?;
         }
     }
     // the ends meet without overlap: a bitmap backend would leave out what a line covers twice
@@ -164,14 +143,14 @@ fn error_bars<DB: DrawingBackend>(
     Ok(())
 }
 
-fn legend<DB: DrawingBackend>(
+fn draw_legend<DB: DrawingBackend>(
     canvas: &Canvas<'_, DB>,
-    panel: &Panel,
+    (figure, panel): (&Figure, &Panel),
     i: usize,
     frame: &Frame,
 ) -> Result<(), PlotError> {
     let Some((left, top)) = frame.legend else { return Ok(()) };
-    for (row, (c, curve)) in panel.curves.iter().enumerate().filter(|(_, c)| !c.name.is_empty()).enumerate() {
+    for (row, (c, curve)) in legend::named(figure, panel).enumerate() {
         canvas.open(Part::Key, i, c)?;
         let (role, middle) = (Role::Series(curve.colour), top + ROW * (row as f64 + 0.5));
         if let Some(dash) = curve.line {
@@ -180,8 +159,8 @@ fn legend<DB: DrawingBackend>(
         if let Some(marker) = curve.marker {
             canvas.marker((left + SAMPLE / 2.0, middle), marker, role)?;
         }
-        let at = (left + SAMPLE + SAMPLE_GAP, middle + 0.34 * SMALL);
-        canvas.text(&curve.name, at, SMALL, Align::Left, Role::Ink)?;
+        let entry = legend::entry(&curve.name, (left, top), row);
+        canvas.text(&entry.text, entry.at, entry.size, entry.align, entry.role)?;
         canvas.close()?;
     }
     Ok(())

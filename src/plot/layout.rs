@@ -1,8 +1,10 @@
-//! Where everything goes: frames side by side, room for labels, and a place for each legend that no curve crosses.
+//! Where everything goes: frames side by side, room for labels and titles that do not touch, and for the legends.
 
 use super::PlotError;
 use super::axis::{self, Ruler};
 use super::canvas::width;
+use super::legend::{self, ROW, Stack};
+use super::text::wrapped;
 use super::theme::{LABEL, SMALL};
 use crate::result::{Axis, Figure, Panel, Scale};
 
@@ -14,7 +16,9 @@ pub(super) struct Layout {
     pub y: Ruler,
     /// one frame per panel
     pub frames: Vec<Frame>,
-    /// distance of the title of the vertical axis from the left edge
+    /// title of the vertical axis, in lines from left to right
+    pub title: Vec<String>,
+    /// distance of its first line from the left edge
     pub title_x: f64,
     /// base lines of the labels of the levels, `None` where a level lies outside
     pub labels: Vec<Option<f64>>,
@@ -24,16 +28,16 @@ pub(super) struct Layout {
 pub(super) struct Frame {
     /// the horizontal axis; its span runs from left to right
     pub x: Ruler,
+    /// title of the horizontal axis, in lines
+    pub title: Vec<String>,
     /// upper left corner of the legend, if it has one
     pub legend: Option<(f64, f64)>,
 }
 
-/// Line spacing of legends and of labels at levels.
-pub(super) const ROW: f64 = 15.5;
-/// Length of the sample line in a legend.
-pub(super) const SAMPLE: f64 = 22.0;
-/// Space between sample and name.
-pub(super) const SAMPLE_GAP: f64 = 5.0;
+/// Line spacing of titles.
+pub(super) const LEADING: f64 = 15.5;
+/// Space between neighbouring texts.
+const APART: f64 = 6.0;
 const FRAME_HEIGHT: f64 = 300.0;
 const PANEL_GAP: f64 = 20.0;
 /// The ends of logarithmic axes have longer numbers.
@@ -44,8 +48,6 @@ const EDGE: f64 = 10.0;
 const RIGHT: f64 = 20.0;
 /// Room for the letter of a panel.
 const LETTER: f64 = 26.0;
-
-type Rectangle = (f64, f64, f64, f64);
 
 impl Layout {
     pub fn new(figure: &Figure) -> Result<Self, PlotError> {
@@ -61,8 +63,9 @@ impl Layout {
             Ruler::new(&figure.y, values, (top + FRAME_HEIGHT, top), 7)
         };
         let mut y = vertical(letters);
+        let title = wrapped(&title(&figure.y, &y), FRAME_HEIGHT, LABEL)?;
         let widest = y.ticks.iter().map(|t| width(&t.label, SMALL)).try_fold(0.0, |w: f64, x| x.map(|x| w.max(x)))?;
-        let left = EDGE + LABEL + 8.0 + widest + 6.0;
+        let left = EDGE + LABEL + LEADING * (title.len().max(1) - 1) as f64 + 8.0 + widest + 6.0;
         let inside = |level: &f64| y.holds(*level);
         let right = figure
             .levels
@@ -70,24 +73,24 @@ impl Layout {
             .filter(|l| inside(&l.y))
             .map(|l| width(&l.label, SMALL))
             .try_fold(RIGHT, |w, x| x.map(|x| w.max(x + 8.0 + EDGE / 2.0)))?;
-        let log = figure.panels.iter().any(|panel| panel.x.scale == Scale::Log);
-        let gap = if log { LOG_GAP } else { PANEL_GAP };
-        let frame_width = (full_width - left - right - gap * (count - 1) as f64) / count as f64;
-        let mut frames = Vec::new();
-        let (mut header, mut homeless) = (letters, Vec::new());
-        for (i, panel) in figure.panels.iter().enumerate() {
-            let from = left + (frame_width + gap) * i as f64;
-            let x = horizontal(figure, panel, (from, from + frame_width))?;
-            let size = legend_size(panel)?;
-            let place = size.and_then(|size| free_place(figure, panel, (&x, &y), size));
-            if let (Some((width, height)), None) = (size, place) {
+        let (mut frames, gap) = side_by_side(figure, (left, right), full_width)?;
+        let (mut header, mut homeless, mut stack) = (letters, Vec::new(), Stack::new());
+        let mut widest_legend = 0.0_f64;
+        for (i, (panel, frame)) in figure.panels.iter().zip(&mut frames).enumerate() {
+            let size = legend::size(figure, panel)?;
+            frame.legend = size.and_then(|size| legend::free_place(figure, panel, (&frame.x, &y), size));
+            if let (Some((width, height)), None) = (size, frame.legend) {
                 // its last row beside the letter of the panel, unless it would reach the next letter
-                let wide = count > 1 && LETTER + width > frame_width;
-                let above = if wide { letters } else { 0.0 };
-                header = header.max(height + EDGE + above);
-                homeless.push((i, height + above, if wide || count == 1 { 0.0 } else { LETTER }));
+                let (from, to) = frame.x.span;
+                let wide = count > 1 && LETTER + width > to - from + gap - APART;
+                let aside = if wide || count == 1 { 0.0 } else { LETTER };
+                let most = full_width - EDGE - width;
+                let x = (from + aside).min(most).max(EDGE);
+                let top = stack.push(x, if wide { letters } else { 0.0 }, (width, height));
+                header = header.max(top + EDGE);
+                widest_legend = widest_legend.max(width + 2.0 * EDGE);
+                homeless.push((i, x, top));
             }
-            frames.push(Frame { x, legend: place });
         }
         // legends without a free place stand above their frames, which move down to make room
         let shift = header - letters;
@@ -96,16 +99,70 @@ impl Layout {
             for frame in &mut frames {
                 frame.legend = frame.legend.map(|(x, y)| (x, y + shift));
             }
-            for (i, height, beside) in homeless {
+            for (i, x, top) in homeless {
                 if let Some(frame) = frames.get_mut(i) {
-                    frame.legend = Some((frame.x.span.0 + beside, header - height - 2.0));
+                    frame.legend = Some((x, header - top - 2.0));
                 }
             }
         }
-        let size = (full_width, header + FRAME_HEIGHT + BELOW);
+        let lines = frames.iter().map(|frame| frame.title.len()).max().unwrap_or(1).max(1);
+        let below = BELOW + LEADING * (lines - 1) as f64;
+        let size = (full_width.max(widest_legend), header + FRAME_HEIGHT + below);
         let labels = spread(figure.levels.iter().map(|l| y.holds(l.y).then(|| y.at(l.y))).collect(), y.span);
-        Ok(Self { size, y, frames, title_x: EDGE + LABEL * 0.75, labels })
+        Ok(Self { size, y, frames, title, title_x: EDGE + LABEL * 0.75, labels })
     }
+}
+
+/// The frames between the margins, as far apart as the numbers at the ends of their axes need, with their titles in as many lines
+/// as keep them apart; and the gap between two frames.
+fn side_by_side(figure: &Figure, (left, right): (f64, f64), full_width: f64) -> Result<(Vec<Frame>, f64), PlotError> {
+    let count = figure.panels.len();
+    let log = figure.panels.iter().any(|panel| panel.x.scale == Scale::Log);
+    let mut gap: f64 = if log { LOG_GAP } else { PANEL_GAP };
+    let mut right = right;
+    // A gap that grows makes frames narrower, whose numbers may be others.
+    for last in [false, false, false, true] {
+        let frame_width = (full_width - left - right - gap * count.saturating_sub(1) as f64) / count.max(1) as f64;
+        let mut frames = Vec::new();
+        for (i, panel) in figure.panels.iter().enumerate() {
+            let from = left + (frame_width + gap) * i as f64;
+            let x = horizontal(figure, panel, (from, from + frame_width))?;
+            frames.push(Frame { x, title: Vec::new(), legend: None });
+        }
+        let (mut needed, mut beyond) = (gap, right);
+        let overhangs: Vec<(f64, f64)> = frames.iter().map(|frame| overhang(&frame.x)).collect::<Result<_, _>>()?;
+        for pair in overhangs.windows(2) {
+            if let [(_, a), (b, _)] = pair {
+                needed = needed.max(a + b + APART);
+            }
+        }
+        beyond = beyond.max(overhangs.last().map_or(0.0, |(_, over)| over + EDGE / 2.0));
+        if last || (needed <= gap && beyond <= right) {
+            for (i, (panel, frame)) in figure.panels.iter().zip(&mut frames).enumerate() {
+                let (from, to) = frame.x.span;
+                let centre = (from + to) / 2.0;
+                let room = [
+                    if i == 0 { centre - EDGE / 2.0 } else { centre - from + (gap - APART) / 2.0 },
+                    if i + 1 == count { full_width - EDGE / 2.0 - centre } else { to - centre + (gap - APART) / 2.0 },
+                ];
+                frame.title = wrapped(&title(&panel.x, &frame.x), 2.0 * room[0].min(room[1]), LABEL)?;
+            }
+            return Ok((frames, gap));
+        }
+        (gap, right) = (needed, beyond);
+    }
+    Ok((Vec::new(), gap))
+}
+
+/// How far the first and the last number of an axis reach beyond its ends.
+fn overhang(ruler: &Ruler) -> Result<(f64, f64), PlotError> {
+    let (from, to) = ruler.span;
+    let mut over = (0.0_f64, 0.0_f64);
+    for tick in ruler.ticks.iter().filter(|t| !t.label.is_empty()) {
+        let (at, half) = (ruler.at(tick.at), width(&tick.label, SMALL)? / 2.0);
+        over = (over.0.max(from - (at - half)), over.1.max(at + half - to));
+    }
+    Ok(over)
 }
 
 /// All points of a panel that are drawn.
@@ -136,67 +193,6 @@ fn horizontal(figure: &Figure, panel: &Panel, span: (f64, f64)) -> Result<Ruler,
         }
         labels -= 1;
     }
-}
-
-/// Width and height of a legend, `None` if no curve has a name.
-fn legend_size(panel: &Panel) -> Result<Option<(f64, f64)>, PlotError> {
-    let (mut widest, mut rows) = (0.0_f64, 0);
-    for curve in panel.curves.iter().filter(|c| !c.name.is_empty()) {
-        widest = widest.max(width(&curve.name, SMALL)?);
-        rows += 1;
-    }
-    Ok((rows > 0).then(|| (SAMPLE + SAMPLE_GAP + widest, ROW * f64::from(rows))))
-}
-
-/// A place in the frame that neither a curve nor a level crosses, as near to a corner as there is one.
-fn free_place(figure: &Figure, panel: &Panel, (x, y): (&Ruler, &Ruler), size: (f64, f64)) -> Option<(f64, f64)> {
-    const MARGIN: f64 = 9.0;
-    const STEPS: u32 = 24;
-    let lines: Vec<Vec<(f64, f64)>> = panel
-        .curves
-        .iter()
-        .flat_map(|curve| figure.pieces(panel, curve))
-        .map(|piece| piece.iter().map(|p| (x.at(p.0), y.at(p.1))).collect())
-        .collect();
-    let levels: Vec<f64> = figure.levels.iter().filter(|l| y.holds(l.y)).map(|l| y.at(l.y)).collect();
-    let (first, last) = (x.span.0 + MARGIN, x.span.1 - MARGIN - size.0);
-    let (top, bottom) = (y.span.1 + MARGIN, y.span.0 - MARGIN - size.1);
-    let columns = if last < first { vec![] } else { vec![last, first, (first + last) / 2.0] };
-    let rows = (0..=STEPS).map(|i| top + (bottom - top) * f64::from(i) / f64::from(STEPS));
-    let candidates = rows.flat_map(|row| columns.iter().map(move |&column| (column, row)));
-    let clearance = |(left, up): (f64, f64)| {
-        let room = (left - 5.0, up - 5.0, left + size.0 + 5.0, up + size.1 + 4.0);
-        !lines.iter().any(|line| crosses(line, room)) && !levels.iter().any(|&l| l > room.1 && l < room.3)
-    };
-    // the distance from the nearest of top and bottom, then from the sides: corners first, upper right before all
-    let rank = |&(column, row): &(f64, f64)| {
-        let middle = if column > first && column < last { 40.0 } else { 0.0 };
-        (row - top).min(bottom - row + 3.0) + middle + if column < last { 2.0 } else { 0.0 }
-    };
-    candidates.filter(|&c| clearance(c)).min_by(|a, b| rank(a).total_cmp(&rank(b)))
-}
-
-/// Whether a line touches a rectangle (left, top, right, bottom).
-fn crosses(line: &[(f64, f64)], room: Rectangle) -> bool {
-    let single = line.first().zip(line.first()).filter(|_| line.len() == 1);
-    line.iter().zip(line.iter().skip(1)).chain(single).any(|(a, b)| segment_crosses(*a, *b, room))
-}
-
-/// Liang and Barsky's clipping test.
-fn segment_crosses(a: (f64, f64), b: (f64, f64), (left, top, right, bottom): Rectangle) -> bool {
-    let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-    let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
-    for (slope, room) in [(-dx, a.0 - left), (dx, right - a.0), (-dy, a.1 - top), (dy, bottom - a.1)] {
-        if slope == 0.0 && room < 0.0 {
-            return false;
-        }
-        if slope < 0.0 {
-            enter = enter.max(room / slope);
-        } else if slope > 0.0 {
-            leave = leave.min(room / slope);
-        }
-    }
-    enter <= leave
 }
 
 /// Moves labels apart until none touches another, and keeps them beside the frame.
@@ -281,13 +277,5 @@ mod tests {
         let labels = Layout::new(&close).unwrap().labels;
         assert!((labels[0].unwrap() - labels[1].unwrap()).abs() >= ROW - 1e-9);
         assert_eq!(labels[3], None);
-    }
-
-    #[test]
-    fn a_segment_through_a_room_without_an_end_in_it_crosses_it() {
-        assert!(segment_crosses((-1.0, 0.5), (2.0, 0.6), (0.0, 0.0, 1.0, 1.0)));
-        assert!(!segment_crosses((-1.0, 1.5), (2.0, 1.6), (0.0, 0.0, 1.0, 1.0)));
-        assert!(!segment_crosses((-1.0, 0.9), (0.2, 2.5), (0.0, 0.0, 1.0, 1.0)));
-        assert!(crosses(&[(0.5, 0.5)], (0.0, 0.0, 1.0, 1.0)));
     }
 }

@@ -151,19 +151,20 @@ struct Frame {
     y: Ruler,
 }
 
+/// An axis of a plane, which ends where the plane does: no head room.
+pub(super) fn plane_ruler(axis: &Axis, place: (f64, f64), labels: usize) -> Ruler {
+    let ends = axis.ends.unwrap_or((0.0, 1.0));
+    let mut ruler = Ruler::new(axis, [ends.0, ends.1].into_iter(), place, labels);
+    ruler.limits = ends;
+    ruler.ticks.retain(|tick| tick.at >= ends.0 && tick.at <= ends.1);
+    ruler
+}
+
 impl Frame {
     fn new(panel: &MapPanel, left: f64, width: f64) -> Self {
-        let rule = |axis: &Axis, place: (f64, f64), labels: usize| {
-            let ends = axis.ends.unwrap_or((0.0, 1.0));
-            let mut ruler = Ruler::new(axis, [ends.0, ends.1].into_iter(), place, labels);
-            // No head room: a map ends where its plane does.
-            ruler.limits = ends;
-            ruler.ticks.retain(|tick| tick.at >= ends.0 && tick.at <= ends.1);
-            ruler
-        };
         Self {
-            x: rule(&panel.x, (left, left + width), 6),
-            y: rule(&panel.y, (MARGINS.above + HEIGHT, MARGINS.above), 7),
+            x: plane_ruler(&panel.x, (left, left + width), 6),
+            y: plane_ruler(&panel.y, (MARGINS.above + HEIGHT, MARGINS.above), 7),
         }
     }
 

@@ -2,13 +2,16 @@
 //! and [`png()`] draw them, [`report_html`] sets the page. [`shared_figures`] and [`document_html`] do so for several.
 
 mod animation;
+mod answer;
 mod axis;
 mod canvas;
 mod document;
 mod draw;
+mod faults;
 mod grains;
 mod interface;
 mod layout;
+mod legend;
 mod live;
 mod map;
 mod png;
@@ -16,11 +19,13 @@ mod report;
 #[cfg(test)]
 mod samples;
 mod section;
+mod section_page;
 mod series;
 mod several;
 mod shell;
 mod stated;
 mod svg;
+mod text;
 mod theme;
 
 use std::fmt::Display;
@@ -29,11 +34,13 @@ use std::path::PathBuf;
 use crate::result::{Figure, Profile, Summary};
 
 pub use document::{Cell, Document, Section, document_html};
+pub use faults::faults;
 pub use grains::grains_svg;
 pub use map::{Corner, Map, MapPanel, Place, Trail, map_png};
 pub use png::png;
 pub use report::{Page, report_html};
-pub use section::{section_map, section_svg};
+pub use section::section_map;
+pub use section_page::section_svg;
 pub use series::series_figures;
 pub use several::{Trace, shared_figures};
 pub use svg::svg;

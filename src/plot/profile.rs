@@ -140,13 +140,17 @@ impl<'a> Drawing<'a> {
     }
 
     fn velocities(&self) -> Option<Panel> {
-        let whole = if self.has_grains { "mixture" } else { "" };
+        let planes = self.column(&quantity::U_PLANES).map(<[_]>::to_vec);
+        let whole = match (self.has_grains, planes.is_some()) {
+            (true, _) => "mixture",
+            (false, true) => "here",
+            (false, false) => "",
+        };
         let candidates = [
             (whole, &quantity::U_MIXTURE, WHOLE),
             ("fluid", &quantity::U_FLUID, FLUID),
             ("grains", &quantity::U_PARTICLE, GRAINS),
         ];
-        let planes = self.column(&quantity::U_PLANES).map(<[_]>::to_vec);
         let present: Vec<Line> = candidates
             .into_iter()
             .filter_map(|(name, q, pen)| Some(Line { name, pen, quantity: Some(q), values: self.column(q)?.to_vec() }))

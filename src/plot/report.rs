@@ -1,4 +1,4 @@
-//! The page of a run: numbers first, then what to doubt, the figures, the equations and the origin. One file, no
+//! The page of a run: the answer first, then its first figure, the numbers, what to doubt, the other figures, the equations and the origin. One file, no
 //! network, nothing that needs its script; light and dark as the reader has it.
 
 use std::fmt::Write as _;
@@ -9,6 +9,7 @@ use crate::result::{Animation, Reported, Statement, Status, Summary};
 use crate::units::{CommonUnits, readable, significant};
 
 use super::animation::animation_html;
+use super::answer::{answer, subscripts};
 use super::shell::{foot, head, typeset};
 use super::stated::{flow, statement};
 use super::svg::{escape, svg};
@@ -57,17 +58,20 @@ pub fn report_html(page: &Page<'_>) -> String {
     );
     html += &error(summary, !page.figures.is_empty());
     html += &regime(summary);
+    html += &answer(&summary.answer(), true);
+    let (first, others) = page.figures.split_at(page.figures.len().min(1));
+    html += &figures(first);
     html += &results(summary);
     html += &balances(summary);
     html += &validity(summary);
     html += &page.animation.map(animation_html).unwrap_or_default();
-    html += &figures(page.figures);
     if let Some((drawing, caption)) = page.drawing {
         html += &format!(
             "<figure id=\"drawing\"><div class=\"wide\">{drawing}</div><figcaption>{}</figcaption></figure>\n",
             escape(caption)
         );
     }
+    html += &figures(others);
     for note in page.notes {
         html += &format!("<p class=\"note\">{}</p>\n", escape(note));
     }
@@ -296,24 +300,6 @@ fn duration(seconds: f64) -> String {
     }
 }
 
-/// `u_max` with its index below the line.
-fn subscripts(symbol: &str) -> String {
-    let (mut html, mut below) = (String::new(), false);
-    for c in symbol.chars() {
-        if below && !(c.is_alphanumeric() || c == '*') {
-            html.push_str("</sub>");
-            below = false;
-        }
-        if c == '_' {
-            html.push_str("<sub>");
-            below = true;
-        } else {
-            html.push_str(&escape(&if c == '-' { '−' } else { c }.to_string()));
-        }
-    }
-    html + if below { "</sub>" } else { "" }
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::shell::tests::has_one_script;
@@ -325,10 +311,6 @@ mod tests {
     fn numbers_and_symbols_are_typeset() {
         assert_eq!(typeset("3.310e-5 kg/(m s)"), "3.310 × 10<sup>−5</sup>&nbsp;kg/(m s)");
         assert_eq!(typeset("-0.25"), "−0.25");
-        assert_eq!(subscripts("q_p/φ"), "q<sub>p</sub>/φ");
-        assert_eq!(subscripts("u_*"), "u<sub>*</sub>");
-        assert_eq!(subscripts("U - u_p"), "U − u<sub>p</sub>");
-        assert_eq!(subscripts("z(u_max)"), "z(u<sub>max</sub>)");
         assert_eq!(duration(2.1e-4), "210 µs");
         let shown = [730.0, 0.0, 0.5]
             .map(|x| value(&Reported { value: Some(x), stderr: None, reason: None }, "1", &CommonUnits::default()));
@@ -336,7 +318,7 @@ mod tests {
     }
 
     #[test]
-    fn the_page_says_the_numbers_first_and_every_digit_on_hover() {
+    fn the_page_says_the_answer_first_then_a_figure_then_the_tables_and_every_digit_on_hover() {
         let (profile, summary) = samples::laminar_bed();
         let figures = profile_figures(&profile, &summary);
         let toml = "format = 1";
@@ -350,17 +332,21 @@ mod tests {
             notes: &[],
         });
         let order = [
+            "<h1>",
             "1 closure outside",
+            "id=\"answer\"",
+            "<dt>transport rate</dt>",
+            "<figure",
             "<h2>Results",
             "<h2>Balances",
             "Used outside",
-            "<figure",
             "Equations solved",
             "<h2>Cost",
             "<details",
         ];
         let places: Vec<usize> = order.iter().map(|text| html.find(text).unwrap()).collect();
         assert!(places.is_sorted(), "{places:?}");
+        assert!(html.find("<table").unwrap() > html.find("</figure>").unwrap(), "a table before the first figure");
         assert!(html.contains("transport_rate_m2_s = 3.3103e-5") && html.contains("33.10&nbsp;mm²/s"));
         assert!(html.contains("the phases move together"));
         assert_eq!(html.matches("http://").count(), html.matches("http://www.w3.org/2000/svg").count());

@@ -1,75 +1,25 @@
-//! A map of a section: velocity in colour, what does not yield hatched by its outline, the bed level.
+//! A map of a section: velocity in colour, the outline of what does not yield, the bed level.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
-use super::grains::{colour, scale_bar};
 use super::map::{MapPanel, Place, Trail};
 use crate::result::{Axis, Dash, Field};
 
-/// Width or height of the drawing, whichever is larger \[px].
-const SIZE: f64 = 560.0;
 /// Most tiles along one direction.
 const TILES: usize = 64;
 
 /// A grid of nodes with a velocity, and a measure that is above 0.5 where the material does not yield.
-struct Grid {
+pub(super) struct Grid {
     across: usize,
-    places: Vec<Place>,
-    speed: Vec<f64>,
+    pub places: Vec<Place>,
+    pub speed: Vec<f64>,
     still: Vec<f64>,
     /// velocity along both axes
     vectors: Option<(Vec<f64>, Vec<f64>)>,
 }
 
-/// The map of a field with u_mixture_m_s or speed_m_s, and unyielded; `symmetric` adds the other half of the section, `bed` \[m] draws a level. None if there is nothing to draw.
-#[must_use]
-pub fn section_svg(field: &Field, symmetric: bool, bed: Option<f64>) -> Option<String> {
-    let grid = Grid::of(field)?;
-    let high = |of: &dyn Fn(&(f64, f64)) -> f64| grid.places.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-    let (right, top) = (high(&|p| p.0), high(&|p| p.1));
-    let left = if symmetric { -right } else { 0.0 };
-    let fast = grid.speed.iter().copied().fold(0.0, f64::max);
-    if !(right > left && top > 0.0 && fast.is_finite()) {
-        return None;
-    }
-    let scale = SIZE / (right - left).max(top);
-    let (width, height) = (scale * (right - left), scale * top);
-    let sides: &[f64] = if symmetric { &[1.0, -1.0] } else { &[1.0] };
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.1} {:.1}\" role=\"img\" \
-         aria-label=\"velocity in the section, with the outline of what does not yield\">\n",
-        height + 30.0
-    );
-    let at = |side: f64, p: (f64, f64)| (scale * (side * p.0 - left), scale * (top - p.1));
-    for (corners, speed) in grid.tiles() {
-        for side in sides {
-            let points: Vec<String> =
-                corners.iter().map(|p| at(*side, *p)).map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
-            let fill = colour(if fast > 0.0 { speed / fast } else { 0.0 });
-            let _ = writeln!(svg, "<polygon points=\"{}\" fill=\"{fill}\" stroke=\"{fill}\"/>", points.join(" "));
-        }
-    }
-    let mut outline = String::new();
-    for (a, b) in grid.outline() {
-        for side in sides {
-            let ((x0, y0), (x1, y1)) = (at(*side, a), at(*side, b));
-            let _ = write!(outline, "M{x0:.1} {y0:.1}L{x1:.1} {y1:.1}");
-        }
-    }
-    let _ = writeln!(svg, "<path d=\"{outline}\" fill=\"none\" stroke=\"#fff\" stroke-width=\"2\"/>");
-    if let Some(level) = bed {
-        let y = scale * (top - level);
-        let _ = writeln!(
-            svg,
-            "<path d=\"M0 {y:.1}H{width:.1}\" stroke=\"#e0e0e0\" stroke-width=\"1\" stroke-dasharray=\"6 4\"/>"
-        );
-    }
-    svg += &scale_bar(width, height, (0.0, fast), "");
-    Some(svg + "</svg>\n")
-}
-
-/// The same as a panel of a map, in millimetres where the section is small, the velocity in units of `speed` [m/s].
+/// The map of a field with u_mixture_m_s or speed_m_s, and unyielded, as a panel, in millimetres where the section is small, the velocity in
+/// units of `speed` [m/s]; `symmetric` adds the other half of the section, `bed` \[m] draws a level. None if there is nothing to draw.
 #[must_use]
 pub fn section_map(field: &Field, symmetric: bool, bed: Option<f64>, (title, speed): (&str, f64)) -> Option<MapPanel> {
     let grid = Grid::of(field)?;
@@ -183,7 +133,7 @@ impl Grid {
         Some(along(j) + t * (along(j + 1) - along(j)))
     }
 
-    fn of(field: &Field) -> Option<Self> {
+    pub fn of(field: &Field) -> Option<Self> {
         let across = field.across;
         let speed = field.get("u_mixture_m_s").or_else(|| field.get("speed_m_s"))?.to_vec();
         let whole = across > 2 && speed.len() > 2 * across && speed.len().is_multiple_of(across);
@@ -211,7 +161,7 @@ impl Grid {
     }
 
     /// Corners and mean velocity of each tile.
-    fn tiles(&self) -> Vec<([(f64, f64); 4], f64)> {
+    pub fn tiles(&self) -> Vec<([(f64, f64); 4], f64)> {
         let (columns, rows) = (Self::lines(self.across), Self::lines(self.up()));
         let mut tiles = Vec::new();
         for j in rows.windows(2) {
@@ -224,7 +174,7 @@ impl Grid {
     }
 
     /// Pieces of the line on which half of what is around does not yield: along the sides of triangles of nodes.
-    fn outline(&self) -> Vec<(Place, Place)> {
+    pub fn outline(&self) -> Vec<(Place, Place)> {
         const HALF: f64 = 0.5;
         let mut pieces = Vec::new();
         for [a, b, c] in self.triangles() {
@@ -250,25 +200,6 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn tiles_of_both_halves_an_outline_and_nothing_from_nothing() {
-        let mut table = String::from("column,row,y_m,z_m,u_mixture_m_s,unyielded\n");
-        for j in 0..3 {
-            for i in 0..3 {
-                let _ = writeln!(table, "{i},{j},{i},{j},{},{}", i + j, u8::from(j == 0));
-            }
-        }
-        let field = Field::read(table.as_bytes()).unwrap().unwrap();
-        let svg = section_svg(&field, true, Some(1.0)).unwrap();
-        assert_eq!(svg.matches("<polygon").count(), 8);
-        assert!(svg.contains("M") && svg.contains("stroke-dasharray"));
-        let outline = Grid::of(&field).unwrap().outline();
-        assert!(!outline.is_empty() && outline.iter().all(|(a, b)| a.1 == 0.5 && b.1 == 0.5), "{outline:?}");
-        let again = Field::read(field.csv().as_bytes()).unwrap().unwrap();
-        assert_eq!((again.across, again.up, again.csv()), (3, 3, field.csv()));
-        assert!(Field::read("column,row,y_m,z_m\n".as_bytes()).unwrap().is_none());
-    }
 
     #[test]
     fn arrows_are_of_the_field_and_reach_neither_each_other_nor_the_wall() {

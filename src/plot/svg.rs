@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use plotters::prelude::{IntoDrawingArea, SVGBackend};
 
-use super::canvas::{LINE_HEIGHT, Medium};
+use super::canvas::{LINE_HEIGHT, Medium, width};
 use super::draw::draw;
 use super::layout::Layout;
 use super::{PlotError, live, theme};
@@ -49,7 +49,8 @@ pub fn svg(figure: &Figure) -> Result<String, PlotError> {
         live::panes(figure, &layout),
     );
     let body = raw.split_once('>').map_or("", |(_, body)| body);
-    for part in body.split_inclusive('>') {
+    let mut parts = body.split_inclusive('>').peekable();
+    while let Some(part) = parts.next() {
         // text stands before a tag; there it is escaped already
         let (text, tag) = part.split_once('<').unwrap_or((part, ""));
         out.push_str(text.trim_matches('\n'));
@@ -57,7 +58,10 @@ pub fn svg(figure: &Figure) -> Result<String, PlotError> {
             match bracket(tag) {
                 Some(Some((part, at))) => out += &live::open(part, at, figure, &layout),
                 Some(None) => out += "</g>\n",
-                None => restyle(tag, &mut out),
+                None => {
+                    let words = parts.peek().and_then(|next| next.split('<').next()).unwrap_or_default();
+                    restyle(tag, words.trim_matches('\n'), &mut out);
+                }
             }
         }
     }
@@ -94,8 +98,12 @@ fn bracket(tag: &str) -> Option<Option<(theme::Part, (usize, usize))>> {
     theme::bracket(fill.split_once('"')?.0)
 }
 
-/// Writes a tag, given without its `<`, with classes for sentinel colours and without what the classes imply.
-fn restyle(tag: &str, out: &mut String) {
+/// A text of fewer characters keeps about its width in any font.
+const SHORT: usize = 5;
+
+/// Writes a tag, given without its `<`, with classes for sentinel colours and without what the classes imply. A longer text, `words`, gets
+/// the width for which room was made, whatever font a browser puts in place of ours.
+fn restyle(tag: &str, words: &str, out: &mut String) {
     let closed = tag.trim_end_matches('>');
     let (head, end) = closed.strip_suffix('/').map_or((closed, ">"), |head| (head, "/>\n"));
     let (name, mut rest) = head.split_once(' ').unwrap_or((head, ""));
@@ -111,7 +119,12 @@ fn restyle(tag: &str, out: &mut String) {
             ("text-anchor", _) if value == "start" => Ok(()),
             ("font-size", _) => {
                 let em = value.parse::<f64>().unwrap_or(0.0) * PLOTTERS_SIZE_OVER_EM / LINE_HEIGHT;
-                if (em - theme::SMALL * GRID).abs() < 0.5 { Ok(()) } else { write!(out, " font-size=\"{em:.0}\"") }
+                let words = unescaped(words);
+                let long = (name == "text" && words.chars().count() > SHORT).then(|| width(&words, em).ok()).flatten();
+                let usual = (em - theme::SMALL * GRID).abs() < 0.5;
+                let size = if usual { Ok(()) } else { write!(out, " font-size=\"{em:.0}\"") };
+                let fixed = |width: f64| write!(out, " textLength=\"{width:.0}\" lengthAdjust=\"spacingAndGlyphs\"");
+                size.and_then(|()| long.map_or(Ok(()), fixed))
             }
             _ => write!(out, " {key}=\"{}\"", value.trim_end()),
         };
@@ -125,6 +138,12 @@ fn attribute(text: &str) -> Option<(&str, &str, &str)> {
     let (key, rest) = text.split_once("=\"")?;
     let (value, rest) = rest.split_once('"')?;
     Some((key.trim(), value, rest))
+}
+
+/// A text as it was before plotters wrote it.
+fn unescaped(text: &str) -> String {
+    let signs = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")];
+    signs.iter().fold(text.to_owned(), |text, (written, sign)| text.replace(written, sign))
 }
 
 /// Text for HTML and SVG, in elements and in attributes.
@@ -169,6 +188,19 @@ mod tests {
         assert!(drawing.contains("role=\"img\"") && drawing.contains("class=\"s-c2 d1\""));
         assert!(drawing.contains(">velocity (mm/s)</text>") && drawing.contains(">bed level</text>"));
         assert!(drawing.contains("<title>bed_ouriemi-laminar-exact: (a) velocity"));
+    }
+
+    #[test]
+    fn a_text_is_as_wide_as_its_room_in_any_font() {
+        let mut figure = samples::convergence();
+        figure.panels[0].curves[1].name = "Müller & Söhne <1948>".into();
+        let drawing = svg(&figure).unwrap();
+        let tag = drawing.split("<text").find(|tag| tag.contains(">Müller &amp; Söhne &lt;1948&gt;<")).unwrap();
+        let given: f64 = tag.split_once("textLength=\"").unwrap().1.split('"').next().unwrap().parse().unwrap();
+        let room = width("Müller & Söhne <1948>", theme::SMALL * GRID).unwrap();
+        assert!((given / room - 1.0).abs() < 0.01, "{given} {room}");
+        // Numbers at ticks are short.
+        assert!(drawing.contains(">100</text>") && drawing.matches("textLength").count() < 8);
     }
 
     #[test]
@@ -226,6 +258,7 @@ mod tests {
                     marker: Some(Marker::Square),
                     errors: vec![Some(0.5), None, Some(f64::NAN)],
                     notes: vec!["note".into(); 3],
+                    ..Curve::default()
                 };
                 let axis = Axis { scale, ..Axis::linear("x", "m") };
                 let panel = Panel { x: axis.clone(), curves: vec![curve] };

@@ -39,6 +39,9 @@ pub struct Axis {
     pub scale: Scale,
     /// ends known beforehand, such as walls; widened where data lie outside. `None`: the data decide
     pub ends: Option<(f64, f64)>,
+    /// what the values 0, 1, ... stand for, on an axis of kinds instead of numbers
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<String>,
 }
 
 /// How an axis divides its length.
@@ -69,6 +72,9 @@ pub struct Curve {
     pub errors: Vec<Option<f64>>,
     /// what a reader sees who points at a point; empty if there is nothing more to say
     pub notes: Vec<String>,
+    /// written across each point: the name of a region of the panel
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub text: String,
 }
 
 /// Pattern of a line: with the colour it tells curves apart, without colour it still does.
@@ -112,7 +118,13 @@ impl Axis {
     /// A linear axis whose ends the data decide.
     #[must_use]
     pub fn linear(title: &str, unit: &str) -> Self {
-        Self { title: title.into(), unit: unit.into(), scale: Scale::Linear, ends: None }
+        Self { title: title.into(), unit: unit.into(), scale: Scale::Linear, ends: None, names: Vec::new() }
+    }
+
+    /// An axis of kinds: the values 0, 1, ... stand for `names`.
+    #[must_use]
+    pub fn named(title: &str, names: Vec<String>) -> Self {
+        Self { names, ..Self::linear(title, "") }
     }
 
     /// The elevation, whose ends the data decide.
@@ -168,6 +180,15 @@ impl Figure {
         if self.panels.len() > 1 { format!("({letter})") } else { String::new() }
     }
 
+    /// Whether a legend may name a curve: a curve of its look is drawn in one of the panels.
+    #[must_use]
+    pub fn is_drawn(&self, curve: &Curve) -> bool {
+        let drawn = |panel: &Panel| {
+            panel.curves.iter().any(|other| other.looks_like(curve) && !self.pieces(panel, other).is_empty())
+        };
+        self.panels.iter().any(drawn)
+    }
+
     /// The unbroken pieces of a curve, with the points that both axes hold.
     #[must_use]
     pub fn pieces<'a>(&self, panel: &Panel, curve: &'a Curve) -> Vec<Vec<(f64, f64)>> {
@@ -181,6 +202,14 @@ impl Figure {
         }
         pieces.retain(|piece| !piece.is_empty());
         pieces
+    }
+}
+
+impl Curve {
+    /// Whether one entry of a legend stands for both.
+    #[must_use]
+    pub fn looks_like(&self, other: &Self) -> bool {
+        (self.colour, self.line, self.marker) == (other.colour, other.line, other.marker)
     }
 }
 

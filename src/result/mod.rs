@@ -2,6 +2,7 @@
 //! These are the only types that plots, reports, tables and comparisons accept.
 
 mod animation;
+mod answer;
 mod checkpoint;
 mod class;
 mod codes;

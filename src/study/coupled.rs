@@ -89,7 +89,10 @@ pub(super) fn assess(keys: &[&str], rows: &[Row], assessment: &mut Assessment) {
                 json!({ "factor": law.factor, "threshold": law.threshold, "exponent": law.exponent, "stderr": errors });
             assessment.facts.insert(format!("fit {name}").trim().to_owned(), fact);
             let span = (law.threshold.max(rest.unwrap_or(0.0)), found.iter().map(|k| k.theta).fold(0.0, f64::max));
-            curves.push(drawn("", i + 1, Dash::Solid, span, |x| law.factor * (x - law.threshold).powf(law.exponent)));
+            let name = format!("fit {name}");
+            curves.push(drawn(name.trim(), i + 1, Dash::Solid, span, |x| {
+                law.factor * (x - law.threshold).powf(law.exponent)
+            }));
         }
         if let Some((threshold, error)) = intercept(&found) {
             let text = format!("θ_c = {} ± {}", significant(threshold, 3), significant(error, 2));

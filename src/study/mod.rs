@@ -24,6 +24,7 @@ mod regularisation;
 mod runner;
 mod sheet;
 pub mod stability;
+mod stability_figure;
 pub mod sweep;
 
 use std::error::Error;

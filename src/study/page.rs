@@ -1,4 +1,4 @@
-//! The page of a study: what was found, the figures, every point, the origin.
+//! The page of a study: what was found, the first figure, what is missing, the other figures, every point, the origin.
 
 use super::record::Head;
 use super::{Assessment, Numbers, Row};
@@ -26,17 +26,15 @@ pub(super) fn html(
     provenance: &Provenance,
 ) -> String {
     let title = format!("{} {}", head.plan.verb, head.name);
-    let found = assessment.findings.iter().map(|(label, text)| vec![label.as_str().into(), text.as_str().into()]);
-    let mut sections = vec![Section::Table {
-        heading: "Found",
-        lead: String::new(),
-        head: vec!["what".into(), "result".into()],
-        rows: found.collect(),
-    }];
+    let (first, others) = assessment.figures.split_at(assessment.figures.len().min(1));
+    let mut sections = vec![
+        Section::Answer(assessment.findings.clone()),
+        Section::Figures(first),
+        Section::Warnings(warnings(head, rows, assessment)),
+    ];
     sections.extend(assessment.parameters.as_ref().map(numbers));
     sections.extend([
-        Section::Warnings(warnings(head, rows, assessment)),
-        Section::Figures(&assessment.figures),
+        Section::Figures(others),
         points(head, rows, assessment),
         origin(cost, &Provenance { source: head.command.into(), ..provenance.clone() }),
     ]);

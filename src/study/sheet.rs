@@ -86,7 +86,7 @@ pub(super) fn figures(rows: &[Row]) -> Vec<Figure> {
         figure(
             "roughness",
             "Mixing length at the bed level over the thickness of the sheet.",
-            Axis { ends: Some((0.0, 0.2)), ..Axis::linear("kₛ/δₛ", "") },
+            Axis { ends: Some((0.0, 0.2)), ..Axis::linear("mixing length over thickness kₛ/δₛ", "") },
             vec![marked("", 0, &share)],
         ),
     ]

@@ -9,14 +9,13 @@ use std::collections::BTreeMap;
 use serde_json::json;
 
 use super::Assess;
-use super::chart::time_text;
 use super::curves::error_text;
 pub use super::limits::Request;
 use super::limits::{Found, limits, solved};
 use super::range::{MAX_POINTS, Varied, number_and_unit, parse};
-use super::{Assessment, Plan, Point, Row, StudyError};
+use super::{Assessment, Plan, Point, Row, StudyError, stability_figure};
 use crate::model::Registry;
-use crate::result::{Axis, Class, Curve, Figure, Marker, Panel, Scale, Status};
+use crate::result::{Class, Status};
 use crate::units::significant;
 
 /// The plan of a map of stability, and how to assess it.
@@ -128,79 +127,12 @@ fn assess(registry: &Registry, request: &Request, varied: &[Varied], rows: &[Row
     assessment.facts.insert("limits".into(), facts.collect());
     assessment.facts.insert("predicted".into(), json!(request.predicted));
     assessment.facts.insert("classes".into(), Class::ALL.map(Class::name).to_vec().into());
-    assessment.figures.push(figure(varied, rows, &found));
+    assessment.figures.push(stability_figure::figure(varied, rows, &found, &limits, request.predicted));
     assessment
 }
 
 fn names(varied: &[Varied]) -> Vec<String> {
     varied.iter().map(|v| v.key.clone()).collect()
-}
-
-fn marker(class: Class) -> Marker {
-    match class {
-        Class::Holds => Marker::Circle,
-        Class::Inaccurate => Marker::Triangle,
-        Class::Refused => Marker::Square,
-        Class::NotConverged | Class::Diverged | Class::Unphysical => Marker::Cross,
-    }
-}
-
-/// The classes over one key (and the error of what has one) or over two.
-fn figure(varied: &[Varied], rows: &[Row], found: &[Found]) -> Figure {
-    let number = |row: &Row, i: usize| row.point.values.get(i).and_then(|v| number_and_unit(v)).map(|p| p.0);
-    let unit = |i: usize| {
-        let value = varied.get(i).and_then(|v| v.values.first()).and_then(|v| number_and_unit(v));
-        value.map_or("", |p| p.1).to_owned()
-    };
-    let axis = |i: usize| {
-        let key = varied.get(i).map_or("", |v| v.key.as_str());
-        let values = || rows.iter().filter_map(move |row| number(row, i));
-        let (low, high) = values().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-        let scale = if low > 0.0 && high >= 20.0 * low { Scale::Log } else { Scale::Linear };
-        Axis { scale, ..Axis::linear(key, &unit(i)) }
-    };
-    let map = varied.len() > 1 && rows.iter().all(|row| number(row, 1).is_some());
-    let errors = found.iter().filter_map(|what| what.error);
-    let top = 10.0 * errors.clone().fold(0.1, f64::max);
-    let error = !map && found.iter().any(|what| what.error.is_some());
-    let height = |row: &Row, what: &Found| match (map, error) {
-        (true, _) => number(row, 1),
-        (false, true) => Some(what.error.unwrap_or(top)),
-        (false, false) => Class::ALL.iter().position(|c| *c == what.class).map(|i| i as f64),
-    };
-    let curve = |(i, class): (usize, &Class)| {
-        let of = rows.iter().zip(found).filter(|(_, what)| what.class == *class);
-        let of: Vec<_> = of.filter_map(|(row, what)| Some((number(row, 0)?, height(row, what)?, row, what))).collect();
-        let note = |row: &Row, what: &Found| {
-            let why = if what.reason.is_empty() { String::new() } else { format!(": {}", what.reason) };
-            let names: Vec<String> = varied.iter().map(|v| v.key.clone()).collect();
-            format!("{}: {}{why} ({})", row.point.name(&names), class.name(), time_text(row.cost.solve_s))
-        };
-        Curve {
-            name: class.name().into(),
-            points: of.iter().map(|p| Some((p.0, p.1))).collect(),
-            notes: of.iter().map(|p| note(p.2, p.3)).collect(),
-            colour: [3, 5, 2, 4, 1, 0][i],
-            marker: Some(marker(*class)),
-            ..Curve::default()
-        }
-    };
-    let curves = Class::ALL.iter().enumerate().map(curve).filter(|c| !c.points.is_empty()).collect();
-    Figure {
-        stem: "stability".into(),
-        caption: format!(
-            "Where the method holds, over {}.",
-            varied.iter().map(|v| v.key.as_str()).collect::<Vec<_>>().join(" and ")
-        ),
-        y: match (map, error) {
-            (true, _) => axis(1),
-            (false, true) => Axis::log("error; what fails at the top", "1"),
-            (false, false) => Axis::linear("class", "1"),
-        },
-        panels: vec![Panel { x: axis(0), curves }],
-        levels: Vec::new(),
-        tint_below: None,
-    }
 }
 
 #[cfg(test)]

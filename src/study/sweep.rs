@@ -22,6 +22,8 @@ const QUANTITIES: &[&Quantity] = &[
 ];
 /// From this ratio of largest to smallest on, an axis is logarithmic.
 const WIDE: f64 = 100.0;
+/// Two numbers that agree to this share are the same.
+const SAME: f64 = 1e-9;
 
 /// The plan of a sweep of `case` over the grid of all `--over` arguments, the last one varying fastest, and how to assess it.
 ///
@@ -133,8 +135,11 @@ fn figure(varied: &[Varied], axis: Option<usize>, rows: &[Row], reported: &'stat
     };
     let mut panels = vec![Panel { x: scaled(&key.key, &unit, &x, key.log), curves: curves(&place, true) }];
     let shields = of(quantity::SHIELDS.name);
-    if !shields.is_empty() {
-        let theta = |row: &Row| value(row, quantity::SHIELDS.name);
+    let theta = |row: &Row| value(row, quantity::SHIELDS.name);
+    // A sweep over the Shields number itself has it on its axis already.
+    let agree = |a: f64, b: f64| (a - b).abs() <= SAME * a.abs().max(b.abs());
+    let again = rows.iter().all(|row| place(row).zip(theta(row)).is_none_or(|(x, theta)| agree(x, theta)));
+    if !shields.is_empty() && !again {
         let x = scaled(quantity::SHIELDS.title, "1", &shields, false);
         panels.push(Panel { x, curves: curves(&theta, false) });
     }

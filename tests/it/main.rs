@@ -18,6 +18,7 @@ mod coupled;
 mod docs;
 mod drives;
 mod features;
+mod figures;
 mod folder;
 mod full_disk;
 mod goldens;

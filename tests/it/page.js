@@ -52,6 +52,46 @@ async function animation(figure) {
   return { begin, later, reported, still, end: clock.textContent, colours: colours(), hidden: figure.hidden, drawing: document.getElementById("drawing")?.hidden };
 }
 
+/** What cannot be read in a drawing, as it is laid out by the browser. */
+function faults(svg) {
+  const found = [];
+  const sheet = svg.getBoundingClientRect();
+  const texts = all("text", svg).map(t => ({ words: t.textContent.trim(), box: t.getBoundingClientRect() })).filter(t => t.words);
+  const slack = 1;
+  texts.forEach(({ words, box }, i) => {
+    if (box.left < sheet.left - slack || box.right > sheet.right + slack || box.top < sheet.top - slack || box.bottom > sheet.bottom + slack)
+      found.push(`${words} leaves the sheet`);
+    // The box of a line of text is taller than its letters.
+    const [high, low] = [box.top + 0.2 * Math.min(box.width, box.height), box.bottom - 0.2 * Math.min(box.width, box.height)];
+    for (const other of texts.slice(0, i))
+      if (box.left + slack < other.box.right && other.box.left + slack < box.right && high < other.box.bottom && other.box.top < low)
+        found.push(`${words} lies on ${other.words}`);
+  });
+  const panes = all("rect.pane", svg).map(pane => pane.getBBox());
+  const curves = all("g.curve", svg);
+  for (const g of curves) {
+    const [pane, box, most] = [panes[g.dataset.panel], g.getBBox(), 60];
+    if (!g.dataset.points) continue;
+    if (box.x < pane.x - most || box.y < pane.y - most || box.x + box.width > pane.x + pane.width + most || box.y + box.height > pane.y + pane.height + most)
+      found.push(`${g.dataset.name} leaves its panel`);
+  }
+  for (const key of all("g.key", svg))
+    if (!curves.some(g => g.dataset.key === key.dataset.key && g.dataset.points)) found.push(`${key.textContent.trim()} is not drawn`);
+  const points = panes.map((_, i) => curves.filter(g => Number(g.dataset.panel) === i).map(g => g.dataset.points).join("|"));
+  points.forEach((all, i) => {
+    const across = new Set(all.split(/[ ;|]/).map(point => point.split(",")[0]));
+    if (across.size > 1 && points.indexOf(all) < i) found.push(`panel ${i} is that of ${points.indexOf(all)}`);
+  });
+  if (svg.matches(".map") && texts.filter(t => /\(\S+\)$/.test(t.words)).length !== 3) found.push("not two axes and a scale with units");
+  return found;
+}
+
+/** Whether the page begins with its title, the answer, a figure, and only then has tables. */
+function ordered() {
+  const parts = ["h1", "#answer", "figure", "table"].map(name => all(name).find(e => !e.closest(".alert")));
+  return parts.every(Boolean) && parts.every((e, i) => !i || Boolean(parts[i - 1].compareDocumentPosition(e) & Node.DOCUMENT_POSITION_FOLLOWING));
+}
+
 const answer = {};
 try {
   const style = getComputedStyle(document.body);
@@ -60,6 +100,9 @@ try {
   answer.dark = light(style.backgroundColor) < light(style.color);
   answer.loaded = performance.getEntriesByType("resource").length;
   answer.wide = root.scrollWidth > root.clientWidth;
+  answer.faults = all("svg.plot, svg.map").flatMap(faults);
+  answer.maps = all("svg.map").length;
+  answer.ordered = ordered();
   answer.plots = all("svg.plot").map(svg => {
     hover(svg, 0, 0.5, 0.4);
     const found = { panels: all("rect.pane", svg).length, curves: all("g.curve", svg).length, reported: shown(), crosses: crosses(svg) };

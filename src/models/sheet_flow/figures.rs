@@ -109,22 +109,35 @@ impl Sheet<'_> {
         let moving = |row: &usize| self.z[*row] > self.bottom;
         let pair = |row: usize| Some((self.at(&quantity::RATIO_R, row)?, self.at(&quantity::STOKES, row)?));
         let points: Vec<_> = (0..self.z.len()).filter(moving).filter_map(pair).map(Some).collect();
-        let (low, high) = (0.1, points.iter().flatten().fold(100.0_f64, |m, p| m.max(p.1)));
-        let line = |points: Vec<(f64, f64)>| Curve {
-            name: String::new(),
-            points: points.into_iter().map(Some).collect(),
-            colour: 0,
-            line: Some(Dash::Dashed),
-            ..Curve::default()
-        };
         let cells = Curve { name: "cells".into(), points, colour: 2, marker: Some(Marker::Circle), ..Curve::default() };
         if cells.points.is_empty() {
             return None;
         }
+        // The plane holds all cells and some of each region.
+        let (mut left, mut right, mut low, mut high) = (0.1_f64, 10.0_f64, 0.1_f64, 100.0_f64);
+        for (r, stokes) in cells.points.iter().flatten().filter(|(r, stokes)| *r > 0.0 && *stokes > 0.0) {
+            (left, right, low, high) = (left.min(*r), right.max(*r), low.min(*stokes), high.max(*stokes));
+        }
+        let line = |name: &str, from: (f64, f64), to: (f64, f64)| Curve {
+            name: name.into(),
+            points: vec![Some(from), Some(to)],
+            colour: 0,
+            line: Some(Dash::Dashed),
+            ..Curve::default()
+        };
+        let corner = left.max(low);
         let borders = [
-            line(vec![(1.0, 1.0), (10.0, 1.0)]),
-            line(vec![(1.0, 1.0), (1.0, high)]),
-            line(vec![(low, low), (1.0, 1.0)]),
+            line("borders", (1.0, 1.0), (right, 1.0)),
+            line("", (1.0, 1.0), (1.0, high)),
+            line("", (corner, corner), (1.0, 1.0)),
+        ];
+        let middle = |a: f64, b: f64| (a * b).sqrt();
+        let region =
+            |text: &str, at: (f64, f64)| Curve { text: text.into(), points: vec![Some(at)], ..Curve::default() };
+        let regions = [
+            region("turbulent", (middle(left, 1.0), middle(1.0, high))),
+            region("free fall", (middle(1.0, right), middle(1.0, high))),
+            region("viscous", (middle(1.0, right), middle(low, 1.0))),
         ];
         Some(Figure {
             stem: "regimes".into(),
@@ -133,8 +146,11 @@ impl Sheet<'_> {
                  turbulent at the upper left, viscous below.",
                 significant(shields, 3)
             ),
-            y: Axis::log("St", ""),
-            panels: vec![Panel { x: Axis::log("r", ""), curves: borders.into_iter().chain([cells]).collect() }],
+            y: Axis::log("Stokes number St", ""),
+            panels: vec![Panel {
+                x: Axis::log("rearrangement ratio r", ""),
+                curves: borders.into_iter().chain(regions).chain([cells]).collect(),
+            }],
             levels: Vec::new(),
             tint_below: None,
         })

@@ -31,8 +31,8 @@ fn phases(name: &str, profile: &Profile) -> Option<Figure> {
         y: Axis::elevation("m"),
         panels: vec![
             panel(0, Axis::linear("solid fraction φ", "")),
-            panel(1, Axis::linear("fluid velocity u_f", "m/s")),
-            panel(2, Axis::linear("grain velocity u_p", "m/s")),
+            panel(1, Axis::linear("fluid velocity", "m/s")),
+            panel(2, Axis::linear("grain velocity", "m/s")),
         ],
         levels: Vec::new(),
         tint_below: None,

@@ -63,9 +63,10 @@ impl Found {
             };
             let zero =
                 [column.levels.first(), column.levels.last()].map(|level| level.map(|level| (0.0, level.z * factor)));
-            let zero = Curve { points: zero.into(), line: Some(Dash::Dotted), ..Curve::default() };
+            let name = if k == 0 { "zero".into() } else { String::new() };
+            let zero = Curve { name, points: zero.into(), line: Some(Dash::Dotted), ..Curve::default() };
             let curves = std::iter::once(zero).chain(profiles.iter().enumerate().map(of)).collect();
-            Panel { x: Axis::linear(&format!("residual of {}", column.quantity.symbol), unit_of), curves }
+            Panel { x: Axis::linear(&format!("residual of the {}", column.quantity.title), unit_of), curves }
         };
         Figure {
             stem: if page == 0 { "residuals".into() } else { format!("residuals_{}", page + 1) },
