@@ -6,9 +6,9 @@ use plotters::prelude::DrawingBackend;
 
 use super::PlotError;
 use super::canvas::{Canvas, Medium, Stroke};
+use super::labels::texts;
 use super::layout::{Frame, Layout};
 use super::legend::{self, ROW, SAMPLE};
-use super::text::texts;
 use super::theme::{BOLD, HAIR, Part, Role};
 use crate::result::{Curve, Dash, Figure, Panel};
 

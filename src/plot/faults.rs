@@ -1,9 +1,10 @@
 //! What a reader could not read in a figure, from where everything stands in it.
 
 use super::PlotError;
+use super::labels::texts;
 use super::layout::Layout;
 use super::legend;
-use super::text::{Rectangle, overlap, texts};
+use super::text::{Rectangle, overlap};
 use crate::result::{Curve, Figure, Panel};
 
 /// Letters that touch by less than this are apart [units of the figure].

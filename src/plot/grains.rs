@@ -70,7 +70,7 @@ pub(super) fn scale_bar(width: f64, height: f64, (slow, fast): (f64, f64), note:
     }
     let _ = writeln!(
         svg,
-        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"13\" fill=\"currentColor\">{} to {}{note}</text>",
+        "<text x=\"{:.1}\" y=\"{:.1}\" font-size=\"13\" fill=\"currentColor\">velocity {} to {}{note}</text>",
         0.3 * width + 8.0,
         height + 17.0,
         readable(slow, "m/s"),

@@ -4,7 +4,7 @@ use super::PlotError;
 use super::axis::{self, Ruler};
 use super::canvas::width;
 use super::legend::{self, ROW, Stack};
-use super::text::wrapped;
+use super::text::{LEADING, wrapped};
 use super::theme::{LABEL, SMALL};
 use crate::result::{Axis, Figure, Panel, Scale};
 
@@ -34,8 +34,6 @@ pub(super) struct Frame {
     pub legend: Option<(f64, f64)>,
 }
 
-/// Line spacing of titles.
-pub(super) const LEADING: f64 = 15.5;
 /// Space between neighbouring texts.
 const APART: f64 = 6.0;
 const FRAME_HEIGHT: f64 = 300.0;

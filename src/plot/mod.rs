@@ -10,6 +10,7 @@ mod draw;
 mod faults;
 mod grains;
 mod interface;
+mod labels;
 mod layout;
 mod legend;
 mod live;

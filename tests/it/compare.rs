@@ -35,9 +35,11 @@ fn two_cases_give_a_folder_and_at_most_twelve_lines() {
     let page = scratch.read(&format!("{target}/report.html"));
     let order = [
         "<h1>bed_ouriemi-laminar-exact against",
-        "Profiles</h2>",
-        "Numbers</h2>",
+        "id=\"answer\"",
         "<svg class=\"plot\"",
+        "Numbers</h2>",
+        "Profiles</h2>",
+        "<figure id=\"profiles_2\"",
         "Provenance</h2>",
     ];
     let places: Vec<usize> = order.iter().map(|text| page.find(text).unwrap()).collect();
