@@ -38,6 +38,7 @@ mod paths;
 mod places;
 mod premises;
 mod private;
+mod regime;
 mod report;
 mod scenes;
 mod schema;
