@@ -42,6 +42,7 @@ mod private;
 mod random_scenes;
 mod regime;
 mod report;
+mod scene_text;
 mod scenes;
 mod schema;
 mod sheet;
