@@ -285,9 +285,7 @@ fn regime(summary: &Summary) -> String {
 fn broken(summary: &Summary) -> Option<String> {
     let mut broken = summary.premises(Verdict::Broken);
     let first = broken.next()?;
-    let more = match broken.count() {
-        0 => String::new(),
-        n => format!(" ({n} more in the report)"),
-    };
+    let more: Vec<String> = broken.map(|premise| premise.premise.clone()).collect();
+    let more = if more.is_empty() { String::new() } else { format!(" (also broken: {})", more.join("; ")) };
     Some(format!("broken premise: {}: {}{more}", first.line(), first.why))
 }

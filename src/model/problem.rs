@@ -6,10 +6,10 @@ use super::{Description, Faults, ModelInfo, Solve, SteadyDrive};
 use crate::case::{Case, Fault};
 use crate::closures::{Info, Range};
 use crate::result::{
-    Class, Context, Failure, Figure, Head, NumericalError, Outcome, Profile, StatedLaw, Statement, Status,
+    Class, Context, Failure, Figure, Head, NumericalError, Outcome, Profile, Results, StatedLaw, Statement, Status,
     quantity as q,
 };
-use crate::scene::Scene;
+use crate::scene::{BedScene, Scene, Top};
 
 /// Relative residual of a balance from which on a result has lost its digits: it is round-off otherwise.
 const LARGEST_IMBALANCE: f64 = 1e-3;
@@ -83,15 +83,8 @@ impl Problem {
         let complete = |outcome: &mut Outcome| {
             outcome.statement = self.statement();
             outcome.work = self.cells() as f64 * outcome.steps();
-            // What the scene alone fixes is the same in every model; a model says what else its walls or its lid leave.
-            if let Some((theta, u_star)) = self.scene.as_ref().and_then(Scene::drive) {
-                let results = &mut outcome.results;
-                results.set(&q::SHIELDS_DRIVE, theta);
-                results.set(&q::U_STAR_DRIVE, u_star);
-                if results.get(q::SHIELDS.name).is_none() {
-                    results.set(&q::SHIELDS, theta);
-                    results.set(&q::U_STAR, u_star);
-                }
+            if let Some(Scene::Bed(scene)) = &self.scene {
+                shields(scene, &mut outcome.results);
             }
             if let Some(scene) = &self.scene {
                 outcome.regime = self.solver.premises(scene, &outcome.results);
@@ -197,6 +190,40 @@ pub(super) fn checks(case: &Case, faults: &mut Faults) {
         } else if column.is_some() != check.at.is_some() {
             let fault = Fault::CheckLevel { name: check.quantity.clone(), column: column.is_some() };
             faults.push((format!("check.{i}.quantity"), fault));
+        }
+    }
+}
+
+/// The Shields numbers of every flow over a bed, each with its friction velocity, or why it has none. What the scene alone fixes is the
+/// same in every model; a model says what else its walls or its lid leave.
+fn shields(scene: &BedScene, results: &mut Results) {
+    if let (Some(theta), Some(u_star)) = (scene.shields_drive().filter(|theta| theta.is_finite()), scene.u_star_drive())
+    {
+        results.set(&q::SHIELDS_DRIVE, theta);
+        results.set(&q::U_STAR_DRIVE, u_star);
+        if results.get(q::SHIELDS.name).is_none() {
+            results.set(&q::SHIELDS, theta);
+            results.set(&q::U_STAR, u_star);
+        }
+    } else {
+        let why = match scene.flow.top {
+            Top::OverFixedGrains { .. } => "the depth is known after the deposit",
+            Top::Plane | Top::Stress(_) | Top::Solved | Top::ColebrookWhite(_) => {
+                "the scene does not fix the stress on the bed: the top takes its share of the drive"
+            }
+            Top::FreeSurface => "the scene does not fix the stress on the bed",
+        };
+        results.undefined(&q::SHIELDS_DRIVE, why);
+        results.undefined(&q::U_STAR_DRIVE, why);
+        if results.iter().all(|(name, _)| name != q::SHIELDS.name) {
+            results.undefined(&q::SHIELDS, "it was not found");
+        }
+    }
+    let known = |quantity: &q::Quantity| results.iter().any(|(name, _)| name == quantity.name);
+    if !known(&q::U_STAR) {
+        match results.get(q::SHIELDS.name) {
+            Some(theta) => results.set(&q::U_STAR, scene.u_star(theta)),
+            None => results.undefined(&q::U_STAR, "the Shields number is not known"),
         }
     }
 }

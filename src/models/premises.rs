@@ -1,6 +1,8 @@
 //! What models take for granted of a flow: the rules that several of them share, with their thresholds and where these come from.
 
+use super::load;
 use crate::closures::Range;
+use crate::dem::GrainBed;
 use crate::result::{Limits, Premise, Results, Rule, Validity, quantity as q};
 use crate::scene::BedScene;
 
@@ -151,6 +153,33 @@ pub const PACKED_AS_THE_LAW: Rule = Rule {
     why: "the bed of this model has the packing of its law, not that of the scene",
     source: "ours",
 };
+/// Inertia that a cavity is solved without.
+pub const SLOW: Rule = Rule {
+    premise: "inertia is small",
+    number: "Re = ρ U H/η",
+    limits: Limits::Below(10.0, 100.0),
+    why: "inertia carries the vortex downstream, which this model leaves out",
+    source: "Ghia, Ghia & Shin (1982), J. Comput. Phys. 48, 387-411: by 0.12 H at 100; 10 is ours",
+};
+/// A cell of grains that is periodic along and across the flow.
+pub const WIDE_CELL: Rule = Rule {
+    premise: "the cell is so large that a larger one carries the same",
+    number: "least extent of the cell over d",
+    limits: Limits::Above(10.0, 5.0),
+    why: "grains meet their own images: the rate is that of this cell",
+    source: "ours (docs/coupled.md)",
+};
+/// The same between side walls, along the flow.
+pub const LONG_CELL: Rule =
+    Rule { number: "length of the cell over d", limits: Limits::Above(50.0, 25.0), ..WIDE_CELL };
+/// A bed that neither rises nor sinks while means are taken.
+pub const SETTLED: Rule = Rule {
+    premise: "the bed has settled",
+    number: "change of its level from the first half of the averaged time to the second, over twice its error",
+    limits: Limits::Within(0.0, 1.0),
+    why: "",
+    source: "ours",
+};
 /// Side walls without friction.
 pub const SMOOTH_WALLS: Rule = Rule {
     premise: "side walls without friction are far apart",
@@ -163,6 +192,12 @@ pub const SMOOTH_WALLS: Rule = Rule {
 /// Reynolds number of the gap, as the model reports it.
 pub fn laminar(rule: &Rule, results: &Results) -> Option<Premise> {
     rule.maybe(results.get(q::REYNOLDS_GAP.name).or(results.get(q::REYNOLDS.name)))
+}
+
+/// Stiffness of the contacts under the weight of the grains, of which a volume weighs `weight` [N/m3].
+pub fn rigid(bed: &GrainBed, weight: f64) -> Option<Premise> {
+    let layers = bed.mobile as f64 * bed.d * bed.d / (bed.size[0] * bed.size[1].max(bed.d));
+    RIGID.maybe(load(Some(layers), weight, bed.d).map(|p| bed.contact.k_n / (p * bed.d)))
 }
 
 /// Pull over friction of a bed of this friction on the slope of a scene, of a packing `phi`.

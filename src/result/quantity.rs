@@ -148,6 +148,7 @@ catalogue! {
     MOBILE_DEPTH = "mobile_depth_m", "mobile depth", "Y", "m", "h_p - h_c: thickness of the moving grains";
     YIELD_LEVEL = "yield_level_m", "yield level", "h_c", "m", "elevation below which the grains are at rest";
     BED_LEVEL = "bed_level_m", "bed level", "h_p", "m", "elevation of the top of the grains";
+    BED_LEVEL_DRIFT = "bed_level_drift_m", "change of the bed level", "Δh_p", "m", "mean level in the second half of the averaged time less that in the first";
     BED_LEVEL_REST = "bed_level_rest_m", "bed level at rest", "h_0", "m", "elevation of the top of the grains before they flow";
     FLOW_HEIGHT = "flow_height_m", "flow height", "H", "m", "elevation of the upper wall or of the free surface";
     PHI_INTERFACE = "phi_interface", "solid fraction under the interface", "φ(h_p)", "1", "limit of φ from below at the bed level";

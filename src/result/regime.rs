@@ -70,14 +70,19 @@ pub enum Limits {
     Within(f64, f64),
 }
 
+/// What round-off may do to a number, relative: at a threshold it is taken as that.
+const ROUND_OFF: f64 = 1e-9;
+
 impl Rule {
     /// What `value` says of the premise.
     #[must_use]
     pub fn of(&self, value: f64) -> Premise {
+        let most = |limit: f64| value <= limit + ROUND_OFF * limit.abs();
+        let least = |limit: f64| value >= limit - ROUND_OFF * limit.abs();
         let (holds, broken) = match self.limits {
-            Limits::Below(holds, broken) => (value <= holds, value >= broken),
-            Limits::Above(holds, broken) => (value >= holds, value <= broken),
-            Limits::Within(low, high) => ((low..=high).contains(&value), false),
+            Limits::Below(holds, broken) => (most(holds), least(broken)),
+            Limits::Above(holds, broken) => (least(holds), most(broken)),
+            Limits::Within(low, high) => (least(low) && most(high), false),
         };
         let verdict = match (holds, broken) {
             (true, _) => Verdict::Holds,
@@ -119,6 +124,10 @@ mod tests {
         assert_eq!(verdicts(Limits::Above(5.0, 2.0), [5.0, 3.0, 2.0]), all);
         let within = [Verdict::Holds, Verdict::Doubtful, Verdict::Doubtful];
         assert_eq!(verdicts(Limits::Within(0.2, 1.0), [0.2, 0.1, 2.0]), within);
+        let next = |x: f64| [1.0 - 1e-14, 1.0, 1.0 + 1e-14].map(|near| near * x);
+        assert_eq!(verdicts(Limits::Below(1000.0, 3000.0), next(1000.0)), [Verdict::Holds; 3]);
+        assert_eq!(verdicts(Limits::Above(5.0, 2.0), next(2.0)), [Verdict::Broken; 3]);
+        assert_eq!(verdicts(Limits::Within(0.2, 1.0), next(1.0)), [Verdict::Holds; 3]);
         assert_eq!(rule(Limits::Below(1.0, 2.0)).maybe(Some(f64::NAN)), None);
         assert!(Verdict::Broken > Verdict::Doubtful);
     }

@@ -268,7 +268,13 @@ impl BedScene {
     /// Friction velocity of the drive [m/s].
     #[must_use]
     pub fn u_star_drive(&self) -> Option<f64> {
-        Some((self.shields_drive()? * self.stress_scale() / self.fluid.density).sqrt())
+        Some(self.u_star(self.shields_drive()?))
+    }
+
+    /// Friction velocity [m/s] of the Shields number `theta`.
+    #[must_use]
+    pub fn u_star(&self, theta: f64) -> f64 {
+        (theta.max(0.0) * self.stress_scale() / self.fluid.density).sqrt()
     }
 
     /// Settling velocity [m/s]: given, or that of a sphere alone ([`settling`]).

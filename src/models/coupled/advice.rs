@@ -7,8 +7,8 @@ use crate::closures::fluctuation::Fluctuation;
 use crate::closures::side_wall::SideWall;
 use crate::dem::Bottom;
 use crate::model::{BULK_FRICTION, COLLISIONS, Effort, Model, Offer, OwnCase, PACKED, Term, TermTest, TurbulentScene};
-use crate::models::{load, premises};
-use crate::result::Premise;
+use crate::models::premises;
+use crate::result::{Premise, Results, quantity as q};
 use crate::scene::BedScene;
 use crate::units::significant;
 
@@ -101,20 +101,28 @@ pub(super) fn offer(scene: &TurbulentScene, tolerance: f64) -> Offer {
 }
 
 /// What grains in a fluid take for granted.
-pub(super) fn premises(grains: &Coupled, of: &BedScene) -> Vec<Premise> {
+pub(super) fn premises(grains: &Coupled, of: &BedScene, results: &Results) -> Vec<Premise> {
     let (bed, flow) = (&grains.bed, scene(grains));
-    let layers = bed.mobile as f64 * bed.d * bed.d / (bed.size[0] * bed.size[1].max(bed.d));
-    let weight = (bed.rho_p - grains.rho_f) * bed.g;
-    let rigid = load(Some(layers), weight, bed.d).map(|p| bed.contact.k_n / (p * bed.d));
-    let rest = thickness(grains) / bed.d - flow.layers();
+    // Across side walls there is no other cell.
+    let [length, width] = bed.size.map(|extent| extent / bed.d);
+    let cell = if bed.side_walls { premises::LONG_CELL.of(length) } else { premises::WIDE_CELL.of(length.min(width)) };
+    let drift = results.iter().find(|(name, _)| *name == q::BED_LEVEL_DRIFT.name).and_then(|(_, drift)| {
+        // A bed at rest has one level, and no error.
+        let change = drift.value?.abs();
+        if change > 0.0 { drift.stderr.map(|error| change / (2.0 * error)) } else { Some(0.0) }
+    });
+    // On a slope on which no bed rests all layers move.
+    let rest = (thickness(grains) / bed.d - flow.layers()).max(0.0);
     let found = [
-        premises::RIGID.maybe(rigid),
+        premises::rigid(bed, (bed.rho_p - grains.rho_f) * bed.g),
         premises::AT_REST.maybe(Some(rest).filter(|_| bed.bottom == Bottom::Slice)),
         premises::SUBMERGED.maybe(Some(flow.depth / flow.d)),
         premises::NO_SUSPENSION.maybe(Some(of.settling_velocity().value() / flow.u_star())),
         premises::rests(of, BULK_FRICTION, PACKED),
         premises::SMOOTH_WALLS
             .maybe(Some(flow.depth / bed.size[1]).filter(|_| bed.side_walls && grains.side_wall == SideWall::None)),
+        Some(cell),
+        premises::SETTLED.maybe(drift),
     ];
     found.into_iter().flatten().collect()
 }

@@ -50,6 +50,7 @@ pub fn outcome(run: &mut Run<'_>, status: Status) -> Result<Outcome, SolveError>
     set(&q::TRANSPORT_RATE_BEADS, rate, bed.size[1] / grain);
     set(&q::TRANSPORT_RATE_MASS, rate, bed.rho_p);
     set(&q::BED_LEVEL, level, 1.0);
+    set(&q::BED_LEVEL_DRIFT, run.record.drift(|sample| sample.level, first), 1.0);
     let mean_velocity = run.record.mean(|sample| sample.velocity, first);
     set(&q::MEAN_VELOCITY, mean_velocity, 1.0);
     // The largest of the mean stress; its error is that of the cell where it is.

@@ -257,9 +257,9 @@ impl Solve for Coupled {
         self.bed.mobile
     }
 
-    fn premises(&self, scene: &Scene, _: &Results) -> Vec<Premise> {
+    fn premises(&self, scene: &Scene, results: &Results) -> Vec<Premise> {
         let Scene::Bed(scene) = scene else { return Vec::new() };
-        advice::premises(self, scene)
+        advice::premises(self, scene, results)
     }
 
     fn flow(&self) -> Result<Option<Flow>, Failure> {

@@ -97,6 +97,17 @@ impl Record {
         of_series(&self.values(value, first), COUNTS)
     }
 
+    /// What `value` gains from the first half of the samples from block `first` on to the second. Where a half is too short for an error,
+    /// it is that of the whole: a half has the root of two of it, their difference twice.
+    #[must_use]
+    pub fn drift(&self, value: impl Fn(&Sample) -> f64, first: usize) -> Option<Estimate> {
+        let values = self.values(value, first);
+        let (before, after) = values.split_at(values.len() / 2);
+        let drift = of_series(after, COUNTS)?.plus(of_series(before, COUNTS)?.times(-1.0));
+        let whole = of_series(&values, COUNTS)?.stderr.map(|error| 2.0 * error);
+        Some(Estimate { stderr: drift.stderr.or(whole), ..drift })
+    }
+
     /// Whether the samples of the transport rate from block `first` on are enough for standard errors.
     ///
     /// # Errors

@@ -10,10 +10,11 @@ use crate::closures::role::Only;
 use crate::closures::wall::{self, Rough};
 use crate::model::{Description, Effort, Faults, Flow, Model, ModelInfo, Offer, OnMesh, OwnCase, Solve};
 use crate::models::exact::ExactFault;
+use crate::models::premises;
 use crate::part;
 use crate::result::Context;
-use crate::result::{Failure, Outcome};
-use crate::scene::ChannelScene;
+use crate::result::{Failure, Outcome, Premise, Results, quantity as q};
+use crate::scene::{ChannelScene, Scene};
 use crate::units::significant;
 
 /// Shields number at which the first grains move: intercept of Q*^(2/3), with eddies (docs/coupled.md).
@@ -111,6 +112,15 @@ impl Solve for OnMesh<RoughWall> {
             equations: equations(&self.problem),
             laws: vec![&mixing_length::prandtl::INFO, &wall::rough::INFO],
         }
+    }
+
+    fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
+        let RoughWall { h, wall, .. } = self.problem;
+        let found = [
+            premises::ROUGH_WALL.maybe(results.get(q::REYNOLDS_ROUGHNESS.name)),
+            premises::SHALLOW_ROUGHNESS.maybe(Some(wall.k_s / h)),
+        ];
+        found.into_iter().flatten().collect()
     }
 
     fn cells(&self) -> usize {

@@ -7,10 +7,11 @@ use crate::dem::GrainBed;
 use crate::dem::drive::accepts;
 use crate::model::{Description, Faults, Model, ModelInfo, Solve};
 use crate::models::BedFault;
+use crate::models::premises;
 use crate::models::{derived, layers, load};
 use crate::result::Context;
-use crate::result::{CheckpointError, Failure, Outcome};
-use crate::scene::{BenchmarkScene, GranularScene};
+use crate::result::{CheckpointError, Failure, Outcome, Premise, Results};
+use crate::scene::{BenchmarkScene, GranularScene, Scene};
 
 /// The impact of one sphere. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,6 +115,10 @@ impl Solve for GrainBed {
 
     fn cells(&self) -> usize {
         self.mobile
+    }
+
+    fn premises(&self, _: &Scene, _: &Results) -> Vec<Premise> {
+        premises::rigid(self, self.rho_p * self.g).into_iter().collect()
     }
 
     fn accepts(&self, checkpoint: &[u8]) -> Option<Result<(), CheckpointError>> {

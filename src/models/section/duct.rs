@@ -190,6 +190,14 @@ impl Divided {
         self.velocity(x)
     }
 
+    /// Largest difference of the velocities of mixture and grains in the bed.
+    #[must_use]
+    pub fn largest_slip(&self, x: &[f64]) -> f64 {
+        let inside = (2 * self.mesh.columns + 1) * (2 * self.mesh.bed_rows + 1);
+        let both = self.velocity(x).into_iter().zip(self.grains(x)).take(inside);
+        both.map(|(u, w)| (u - w).abs()).fold(0.0, f64::max)
+    }
+
     /// Integral of a velocity at the nodes over the elements of some rows, both halves of the section.
     #[must_use]
     pub fn integral(&self, velocity: &[f64], rows: std::ops::Range<usize>) -> f64 {

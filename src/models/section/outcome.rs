@@ -193,6 +193,10 @@ fn results(flow: &DuctFlow, solution: &Solution, numbers: &Numbers) -> Results {
             results.set(&q::BED_LEVEL, bed.h_p);
             results.set(&q::DRIVE_DIMENSIONLESS, solution.divided.duct.f);
             results.set(&q::SHIELDS, numbers.tau_bed * h / bed.d);
+            if bed.drag.is_some() {
+                let slip = solution.divided.largest_slip(&solution.solved.x) * shear * h / (1.0 - bed.phi);
+                results.set(&q::REYNOLDS_PARTICLE, bed.rho_f * slip * bed.d / bed.eta);
+            }
             bed.rho_f
         }
     };

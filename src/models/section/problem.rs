@@ -11,8 +11,8 @@ use crate::models::section::SectionFault;
 use crate::models::yielding::size;
 use crate::result::Context;
 use crate::result::Premise;
-use crate::result::Results;
 use crate::result::{Failure, Outcome};
+use crate::result::{Results, quantity as q};
 use crate::scene::Scene;
 use crate::scene::{BedScene, BenchmarkScene, ChannelScene, Section};
 
@@ -186,7 +186,9 @@ impl DuctFlow {
     /// A laminar flow in the gap, and a viscous drag where there are two phases.
     fn premises(&self, results: &Results) -> Vec<Premise> {
         let rule = if self.outline == Outline::Circle { premises::LAMINAR_PIPE } else { premises::LAMINAR };
-        premises::laminar(&rule, results).into_iter().collect()
+        let slips = matches!(&self.contents, Contents::Bed(bed) if bed.drag.is_some());
+        let drag = premises::DARCY.maybe(results.get(q::REYNOLDS_PARTICLE.name).filter(|_| slips));
+        premises::laminar(&rule, results).into_iter().chain(drag).collect()
     }
 }
 
@@ -380,6 +382,10 @@ impl Solve for OnMesh<CavityFlow> {
 
     fn study(&self) -> StudyPlan {
         study::plan(study::cavity(&self.problem), false)
+    }
+
+    fn premises(&self, _: &Scene, results: &Results) -> Vec<Premise> {
+        premises::SLOW.maybe(results.get(q::REYNOLDS.name)).into_iter().collect()
     }
 
     fn cells(&self) -> usize {

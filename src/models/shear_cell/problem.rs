@@ -7,9 +7,10 @@ use crate::closures::Info;
 use crate::closures::kinetic::{Granular, Kinetic, Stresses};
 use crate::model::{Description, Faults, Model, ModelInfo, OnMesh, Solve, StudyPlan};
 use crate::models::BedFault;
+use crate::models::premises;
 use crate::result::Context;
-use crate::result::{Failure, Outcome};
-use crate::scene::BenchmarkScene;
+use crate::result::{Failure, Outcome, Premise, Results};
+use crate::scene::{BenchmarkScene, Scene};
 
 /// Grains between two walls, without fluid or gravity. All values SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,6 +86,12 @@ impl Solve for OnMesh<ShearCell> {
 
     fn cells(&self) -> usize {
         self.cells
+    }
+
+    fn premises(&self, scene: &Scene, _: &Results) -> Vec<Premise> {
+        let Scene::Benchmark(BenchmarkScene { grains: Some(grains), .. }) = scene else { return Vec::new() };
+        let (e, mu_p) = (grains.restitution().value(), grains.friction().value());
+        vec![premises::KINETIC_RESTITUTION.of(e), premises::KINETIC_FRICTION.of(mu_p)]
     }
 }
 

@@ -32,28 +32,38 @@ impl<F: FrictionLaw> SheetFlow<F> {
         shields < self.threshold() * RANGE.0
     }
 
-    /// That there is a layer of moving grains, where the flow was followed to its edge.
+    /// That there is a layer of moving grains; not said where not a grain moves.
     pub(super) fn a_layer_moves(&self, results: &Results) -> Option<Premise> {
         let of = |quantity: &Quantity| results.get(quantity.name);
-        let (shields, least) = (of(&q::SHIELDS)?, of(&q::SHIELDS_LEAST)?);
-        let (threshold, found) = (self.threshold(), of(&q::TRANSPORT_RATE).is_some());
+        let (shields, least) = (of(&q::SHIELDS)?, of(&q::SHIELDS_LEAST));
+        let (threshold, found) = (self.threshold(), of(&q::TRANSPORT_RATE));
+        let verdict = match (found, least) {
+            (Some(rate), None) if rate > 0.0 => Verdict::Holds,
+            (Some(_), None) => return None,
+            (Some(_), Some(_)) => Verdict::Doubtful,
+            (None, _) => Verdict::Broken,
+        };
         Some(Premise {
             premise: "a layer of grains moves".into(),
             number: format!("θ/θ_c, θ_c = {} the threshold of motion", significant(threshold, 3)),
             value: shields / threshold,
-            range: format!(
-                "a layer moves from {}, θ = {}, on",
-                significant(least / threshold, 3),
-                significant(least, 4)
+            range: least.map_or_else(
+                || "a layer was found".into(),
+                |least| {
+                    let times = significant(least / threshold, 3);
+                    format!("a layer moves from {times}, θ = {}, on", significant(least, 4))
+                },
             ),
-            verdict: if found { Verdict::Doubtful } else { Verdict::Broken },
-            why: if found {
-                "right at the edge a layer is found by a creep alone: its rate depends on that".into()
-            } else {
-                "grains move, but no continuous layer of them: single grains roll and jump. There is no rate; take \
-                 grains one by one (model coupled)"
-                    .into()
-            },
+            verdict,
+            why: match verdict {
+                Verdict::Holds => "",
+                Verdict::Doubtful => "right at the edge a layer is found by a creep alone: its rate depends on that",
+                Verdict::Broken => {
+                    "grains move, but no continuous layer of them: single grains roll and jump. There is no rate; take \
+                     grains one by one (model coupled)"
+                }
+            }
+            .into(),
             source: "the fold of the equations; Soulsby (1997), Dynamics of Marine Sands, eq. (77)".into(),
         })
     }

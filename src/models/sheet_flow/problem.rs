@@ -314,6 +314,7 @@ impl<F: FrictionLaw> Solve for OnMesh<SheetFlow<F>> {
             premises::SHEET.maybe(of(&q::SHIELDS)),
             premises::MANY_LAYERS.maybe(of(&q::SHEET_THICKNESS).map(|thickness| thickness / flow.d)),
             premises::SHALLOW_ROUGHNESS.maybe(k_s.map(|k_s| k_s / depth)),
+            premises::SUBMERGED.maybe(Some(depth / flow.d)),
             premises::ROUGH_WALL.maybe(rough),
             premises::PACKED_AS_THE_LAW.maybe(scene.bed.phi.map(|phi| (flow.dilatancy.phi_max - phi).abs())),
             premises::AT_REST.maybe(of(&q::YIELD_LEVEL).map(|level| level / flow.d)),
