@@ -18,6 +18,8 @@ use crate::support::{parse, run};
 
 /// What the tolerance of a solver leaves.
 const SOLVED: f64 = 1e-6;
+/// What 32 rows of elements leave of a stress.
+const MESH: f64 = 1e-3;
 /// What round-off leaves.
 const ROUND_OFF: f64 = 1e-9;
 /// Models that are evaluated and not solved for.
@@ -28,7 +30,7 @@ const FOLLOWED: [&str; 2] = ["coupled", "dem"];
 const TWO_FLUIDS: usize = 4;
 /// Numbers of the method and not of the flow: how often it went on, and the round-off that it left.
 const OF_THE_METHOD: [&str; 4] = ["iterations", "newton_iterations", "unknowns", "duality_gap"];
-/// Share of the sheet flows that may have found another cut.
+/// Share of the sheet flows that may have found another cut, or none.
 const OTHER_CUT: f64 = 0.05;
 
 /// What became of a flow: its results, or the code of why there are none.
@@ -60,8 +62,13 @@ fn differences<'a>(before: &'a Results, after: &Results, scale: [f64; 3]) -> Vec
         // A mass is a density times a volume.
         let powers = [dimension.length + 3 * dimension.mass, dimension.mass, dimension.time];
         let wanted = reported.value.map(|value| value * factor(scale, powers));
+        // A level is measured from a datum: it is as exact as the height of the flow.
+        let height = before.get(q::FLOW_HEIGHT.name).filter(|_| name.ends_with("_level_m"));
         all.push(match (wanted, after.get(name)) {
-            (Some(a), Some(b)) => (name, apart(a, b)),
+            (Some(a), Some(b)) => match height {
+                Some(height) => (name, (a - b).abs() / (height * factor(scale, powers))),
+                None => (name, apart(a, b)),
+            },
             (None, None) => (name, 0.0),
             _ => (name, f64::INFINITY),
         });
@@ -111,6 +118,11 @@ fn hold(drawn: &Drawn, solve_two_fluids: bool, scale: [f64; 3], seen: &mut Seen)
             let (before, after) = match (&became, &again) {
                 (Ok(before), Ok(after)) => (&before.results, &after.results),
                 (Err(a), Err(b)) if a == b => continue,
+                // Whether any guess leads to a flow is a matter of round-off, too, where hardly any does.
+                (Ok(_), Err(_)) | (Err(_), Ok(_)) if *model == "sheet-flow" => {
+                    seen.other_cut += 1;
+                    continue;
+                }
                 (a, b) => {
                     let code = |became: &Became| became.as_ref().err().cloned().unwrap_or_else(|| "done".into());
                     seen.wrong.push(format!("{how} {model}: {}, {}\n{}", code(a), code(b), cases()));
@@ -133,6 +145,10 @@ fn hold(drawn: &Drawn, solve_two_fluids: bool, scale: [f64; 3], seen: &mut Seen)
             let share = before.get("bed_flux_dimensionless").zip(before.get("flow_rate_dimensionless"));
             let of_whole = share.filter(|(flux, _)| *flux > 0.0).map_or(1.0, |(flux, whole)| (flux / whole).min(1.0));
             for (name, difference) in all {
+                // The largest velocity of a plug has no one level.
+                if name == q::U_MAX_LEVEL.name && model.starts_with("duct") {
+                    continue;
+                }
                 let name = q::find(q::RESULTS, name).unwrap().name;
                 let difference = if name.starts_with("bed_flux") { difference * of_whole } else { difference };
                 seen.see(format!("{how} {model}"), name, difference, most, cases);
@@ -161,7 +177,11 @@ fn hold(drawn: &Drawn, solve_two_fluids: bool, scale: [f64; 3], seen: &mut Seen)
         for ((name, a), b) in ["shields_drive", "u_star_drive", "shields", "u_star"].into_iter().zip(with).zip(found) {
             if let (Some(a), Some(b)) = (a, *b) {
                 // What the scene fixes is the same number; what solvers find of a drive of pressure has their errors.
-                let (fixed, most) = if found[0].is_some() { ("of the scene", ROUND_OFF) } else { ("found", SOLVED) };
+                let (fixed, most) = match *model {
+                    _ if found[0].is_some() => ("of the scene", ROUND_OFF),
+                    "duct-bed" => ("found on a mesh", MESH),
+                    _ => ("found", SOLVED),
+                };
                 let cases = || format!("{first} {a:?}, {model} {b:?}:\n{}", drawn.text(0, PLAIN));
                 seen.see(format!("models, {fixed}"), name, apart(a, b), most, cases);
             }

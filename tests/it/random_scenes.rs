@@ -189,9 +189,6 @@ impl Draw<'_> {
         };
         let law = ("regularisation.law", "\"none\"");
         let mut models = Vec::new();
-        if matches!(drive, 0 | 5) {
-            models.push(("duct-bed", with(&[law, ("grid.cells", if section { "8" } else { "32" })])));
-        }
         if section {
             values.push(match self.one(&[0, 1, 2]) {
                 0 => ("flow.section", Word("{ shape = \"circle\" }")),
@@ -202,8 +199,11 @@ impl Draw<'_> {
                 values.push(("flow.section.width", Number(height * self.log(0.5, 3.0), LENGTH)));
             }
         } else {
+            models.push(("laminar-exact", tables.clone()));
             models.push(("laminar", with(&[law, ("grid.cells", "200")])));
-            models.push(("laminar-exact", tables));
+        }
+        if matches!(drive, 0 | 5) {
+            models.push(("duct-bed", with(&[law, ("grid.cells", if section { "8" } else { "32" })])));
         }
         Drawn { kind: "bed", values, models }
     }
