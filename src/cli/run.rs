@@ -244,6 +244,17 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
     let mut lines: Vec<String> = broken(&written.summary).into_iter().collect();
     lines.push(format!("{}: {model}", written.summary.case));
     let mut line = |label: &str, text: String| lines.push(format!("  {label:<16} {text}"));
+    // What the case states of its grains, and they are not.
+    let (stated, laws): (Vec<&Validity>, Vec<_>) = validity.iter().partition(|v| v.closure.starts_with("grains/"));
+    for v in stated {
+        let text = format!(
+            "as given, it is not that of these grains: {} = {} ({})",
+            v.variable,
+            significant(v.value, 3),
+            v.range
+        );
+        line(v.closure.trim_start_matches("grains/"), text);
+    }
     for (label, text) in written.summary.answer() {
         line(&label, text);
     }
@@ -253,8 +264,8 @@ fn closing(written: &Written, out: &str, case: &str) -> String {
     }
     let outside = |v: &Validity| format!("{}: {} = {} ({})", v.closure, v.variable, significant(v.value, 3), v.range);
     let mut trusted = vec![regime(&written.summary)];
-    if !validity.is_empty() {
-        trusted.push(format!("outside range: {}", validity.iter().map(outside).collect::<Vec<_>>().join("; ")));
+    if !laws.is_empty() {
+        trusted.push(format!("outside range: {}", laws.into_iter().map(outside).collect::<Vec<_>>().join("; ")));
     }
     line("regime", trusted.join("; "));
     let memory = cost.peak_memory_mb.map(|mb| format!(", {mb:.0} MB")).unwrap_or_default();

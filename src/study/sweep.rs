@@ -9,7 +9,7 @@ use super::{Assessment, Plan, Point, Row, StudyError};
 use crate::result::Status;
 use crate::result::quantity::{self, Quantity};
 use crate::result::{Axis, Curve, Figure, Panel, Scale};
-use crate::units::{parse_quantity, readable, readable_unit, significant};
+use crate::units::{CommonUnits, parse_quantity, readable_unit, significant};
 
 /// What a sweep shows: the first of these that any point reports.
 const QUANTITIES: &[&Quantity] = &[
@@ -76,6 +76,7 @@ fn assess(varied: &[Varied], axis: Option<usize>, rows: &[Row]) -> Assessment {
     let Some(reported) = reported else { return assessment };
     let known = rows.iter().filter(|row| row.status == Status::Done);
     let known: Vec<(f64, &Row)> = known.filter_map(|row| Some((row.result(reported.name)?, row))).collect();
+    let units = CommonUnits::of(known.iter().map(|(value, _)| (*value, reported.unit)));
     let ends = [known.iter().min_by(|a, b| a.0.total_cmp(&b.0)), known.iter().max_by(|a, b| a.0.total_cmp(&b.0))];
     for (label, end) in ["smallest", "largest"].into_iter().zip(ends) {
         let Some((value, row)) = end else { continue };
@@ -84,7 +85,7 @@ fn assess(varied: &[Varied], axis: Option<usize>, rows: &[Row]) -> Assessment {
         let text = format!(
             "{} {} at {}{}",
             reported.title,
-            readable(*value, reported.unit),
+            units.readable(*value, reported.unit),
             at.join(", "),
             shields.unwrap_or_default()
         );

@@ -144,4 +144,9 @@ fn coarser_sand_does_not_keep_the_settling_velocity_of_finer_sand() {
     };
     let rates = ["0.2 mm", "0.25 mm", "0.35 mm", "0.5 mm"].map(rate);
     assert!(rates.windows(2).all(|pair| pair[1] < pair[0]), "{rates:?}");
+    // A person reads of it before the rate.
+    let scratch = Scratch::new();
+    let said = scratch.bedload(["run", "sheet_1d_type_b", "--set", "grains.diameter=0.5 mm"]).exits(0).out;
+    let second = said.lines().nth(1).unwrap();
+    assert!(second.contains("settling velocity") && second.contains("w_s over that of a sphere = 0.437"), "{said}");
 }
