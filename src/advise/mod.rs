@@ -9,9 +9,9 @@ mod laminar;
 mod subject;
 mod turbulent;
 
-use subject::Subject;
-
 use std::time::Instant;
+
+use subject::Subject;
 
 use crate::case::CaseError;
 use crate::model::{Flow, ModelInfo, Offer, OwnCase, Registry};
@@ -212,7 +212,7 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
         let scene = problem.scene.as_ref().map_or("", |scene| scene.kind());
         return Err(AdviseError::OneModel { model: problem.kind.into(), scene });
     };
-    let subject = Subject { registry: registry.clone().choosing(case.model), case: &case, tolerance };
+    let subject = Subject::new(registry, &case, case.model, tolerance);
     let numbers = match &flow {
         Flow::Laminar(bed) => laminar::numbers(bed, subject.solve(&[]).as_ref()),
         Flow::Turbulent(bed) if bed.theta.is_finite() && bed.weight() < 1.0 => turbulent::numbers(bed),
@@ -264,11 +264,7 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
                 Ok(outcome) if outcome.regime.iter().any(|premise| premise.verdict == Verdict::Broken) => continue,
                 Ok(outcome) => {
                     cost = Cost::Took(clock.elapsed().as_secs_f64());
-                    let subject = Subject {
-                        registry: registry.clone().choosing(kind),
-                        case: own.as_ref().unwrap_or(&case),
-                        tolerance,
-                    };
+                    let subject = Subject::new(registry, own.as_ref().unwrap_or(&case), kind, tolerance);
                     mesh = subject.mesh_error(&outcome.results, found.solver().study().finest);
                 }
             }
@@ -284,7 +280,7 @@ pub fn advise(registry: &Registry, case: &str, overrides: &[String], tolerance: 
         };
         let of = if alone { kind } else { case.model };
         if alone {
-            let subject = Subject { registry: registry.clone().choosing(kind), case: &own, tolerance };
+            let subject = Subject::new(registry, &own, kind, tolerance);
             terms.extend(found.solver().terms().iter().filter_map(|term| subject.assess(term)));
             together = subject.together(&mut terms);
         }

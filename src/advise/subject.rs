@@ -1,5 +1,7 @@
 //! A case that is solved as it stands, without a term, and on a finer mesh.
 
+use std::cell::OnceCell;
+
 use super::{MeshError, Term, share};
 use crate::case::{Case, CaseError};
 use crate::model::{self, Checked, OwnCase, Registry, TermTest};
@@ -9,12 +11,23 @@ use crate::result::{Context, Results};
 /// The case that is advised on.
 pub(super) struct Subject<'a> {
     /// where the case is that of its model
-    pub registry: Registry,
-    pub case: &'a Case,
-    pub tolerance: f64,
+    registry: Registry,
+    case: &'a Case,
+    tolerance: f64,
+    /// transport rate of the case as it stands, once it was asked for
+    rate: OnceCell<Option<f64>>,
 }
 
-impl Subject<'_> {
+impl<'a> Subject<'a> {
+    pub fn new(registry: &Registry, case: &'a Case, kind: &str, tolerance: f64) -> Self {
+        Self { registry: registry.clone().choosing(kind), case, tolerance, rate: OnceCell::new() }
+    }
+
+    /// Transport rate of the case as it stands.
+    fn rate(&self) -> Option<f64> {
+        *self.rate.get_or_init(|| self.solve(&[]).as_ref().and_then(rate))
+    }
+
     pub fn solve(&self, change: &[String]) -> Option<Results> {
         let Case { name, source, overrides, .. } = self.case;
         let overrides = [overrides, change].concat();
@@ -43,7 +56,7 @@ impl Subject<'_> {
             if terms.iter().filter(|term| goes(term)).count() < 2 {
                 return None;
             }
-            let with = rate(&self.solve(&[])?)?;
+            let with = self.rate()?;
             let error = self.solve(&changes).as_ref().and_then(rate).map(|without| (without / with - 1.0).abs());
             if let Some(error) = error.filter(|error| *error <= self.tolerance) {
                 return Some(error);
@@ -79,7 +92,7 @@ impl Subject<'_> {
             }
             TermTest::Solve { change, left, free } => (change, left, free),
         };
-        let with = rate(&self.solve(&[])?)?;
+        let with = self.rate()?;
         let (error, keep) = match self.solve(change).as_ref().and_then(rate) {
             Some(without) if with != 0.0 => {
                 let error = (without / with - 1.0).abs();

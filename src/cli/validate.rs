@@ -36,7 +36,7 @@ pub(super) struct Validate {
     /// File for the table [default: docs/validation.md with --full, where there is a folder docs]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// Take the rows that an unfinished validation of this version into the same file found
+    /// Take the rows that an unfinished validation by this very program into the same file found
     #[arg(long, requires = "full")]
     resume: bool,
     /// Print one JSON object

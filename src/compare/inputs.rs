@@ -128,9 +128,15 @@ impl Comparison {
     /// known of them.
     #[must_use]
     pub fn flows_that_differ(&self) -> Option<String> {
-        let known = self.subjects.iter().filter(|subject| subject.stated.is_some()).count();
-        let found = self.named(&|path| of_the_flow(path));
-        found.or_else(|| (known > 1).then(|| "the same in all".to_owned()))
+        // The others are compared with the first; of data nothing is known.
+        let (first, others) = self.subjects.split_first().filter(|(first, _)| first.stated.is_some())?;
+        let known: Vec<&str> = others.iter().filter(|s| s.stated.is_some()).map(|s| s.name.as_str()).collect();
+        let same = match known.len() {
+            0 => None,
+            n if n == others.len() => Some("the same in all".to_owned()),
+            _ => Some(format!("the same in {} and {}; of the others it is not known", first.name, known.join(", "))),
+        };
+        self.named(&|path| of_the_flow(path)).or(same)
     }
 
     /// In what the models and their numerics differ, with the values in SI; `None` where nothing is known to.

@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use crate::result::Provenance;
+
 /// What was found of each case, in the order of its checks and its limit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Partial {
-    /// version of the program that ran them
+    /// version and commit of the program that ran them
     bedload: String,
     cases: BTreeMap<String, Case>,
 }
@@ -29,12 +31,13 @@ enum Found {
 
 impl Default for Partial {
     fn default() -> Self {
-        Self { bedload: env!("CARGO_PKG_VERSION").into(), cases: BTreeMap::new() }
+        let made = Provenance::of_this_program();
+        Self { bedload: format!("{} ({})", made.bedload, made.commit), cases: BTreeMap::new() }
     }
 }
 
 impl Partial {
-    /// What an earlier validation by this version kept; nothing where that cannot be read.
+    /// What an earlier validation by this very program kept; nothing where that cannot be read.
     #[must_use]
     pub fn read(text: &str) -> Self {
         let read = serde_json::from_str::<Self>(text).ok();
@@ -75,7 +78,7 @@ mod tests {
         assert_eq!(read, kept);
         assert_eq!(read.found("a", "0123"), Some(vec![Ok(0.1 + 0.2), Err("no layer moves".into())]));
         assert_eq!((read.found("a", "4567"), read.found("b", "0123")), (None, None));
-        let older = kept.text().replace(env!("CARGO_PKG_VERSION"), "0.0.0");
+        let older = kept.text().replace(&kept.bedload, "0.1.0 (another commit)");
         assert_eq!(Partial::read(&older), Partial::default());
         assert_eq!(Partial::read("{ \"half"), Partial::default());
     }

@@ -96,6 +96,14 @@ fn what_is_advised_has_its_cost_and_its_error() {
         let mesh = found["error_of_mesh"].as_f64().unwrap();
         assert!((mesh / converged - 1.0).abs() < 1e-6, "{cells}: {mesh} {converged}");
     }
+    // Steps of grains are counted beforehand as a run makes them: 15 million in a second.
+    for case in ["flow_theta06_quick-coupled", "flume_exp14_quick"] {
+        let short = ["--set", "discrete.duration=0.2 s", "--json"];
+        let told = scratch.bedload(["advise", case].into_iter().chain(short)).exits(0).json()["cost_s"].take();
+        let made = scratch.bedload(["run", case].into_iter().chain(short)).exits(0).json()["cost"]["work_units"].take();
+        let (told, made) = (told.as_f64().unwrap() * 1.5e7, made.as_f64().unwrap());
+        assert!((told / made - 1.0).abs() < 0.15, "{case}: {told:e} {made:e}");
+    }
     // Grains take minutes, in proportion to the time that they are followed.
     let grains = |set: &str| advise(&["flow_theta06-coupled", "--set", set])["cost_s"].as_f64().unwrap();
     let (short, long) = (grains("discrete.duration=10 s"), grains("discrete.duration=20 s"));

@@ -2,19 +2,7 @@
 
 use serde_json::Value;
 
-use crate::support::Scratch;
-
-/// A scene that three models take.
-const SAND: &str = r#"
-format = 2
-scene = "bed"
-case.title = "Medium sand under a steep stream"
-fluid = { density = "1000 kg/m3", viscosity = "1e-3 Pa s" }
-grains = { diameter = "2 mm", density = "2650 kg/m3" }
-bed.thickness = "40 mm"
-flow.depth = "60 mm"
-flow.slope = "1.5 deg"
-"#;
+use crate::support::{SAND, Scratch};
 
 /// A folder with that scene, under a name that a shell would take apart.
 fn sand() -> Scratch {

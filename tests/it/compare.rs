@@ -163,6 +163,13 @@ fn measured_points_count_in_sigmas() {
     assert_eq!(found["numbers"][0]["stderr"][1], 1e-6);
     let (out, _) = exits(&scratch, 0, &["compare", TWO, "--data", "points.csv"]);
     assert!(out.contains("2.00 sigma"), "{out}");
+    // Nothing is claimed of the flow that the data are of.
+    assert!(!out.contains("\n  flow "), "{out}");
+    let (out, _) = exits(&scratch, 0, &["compare", TWO, MIXED, "--data", "points.csv"]);
+    assert!(
+        out.contains("the same in bed_ouriemi-laminar-exact and exact_1d_ouriemi_mixed; of the others it is not known"),
+        "{out}"
+    );
 }
 
 #[test]

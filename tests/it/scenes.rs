@@ -8,7 +8,7 @@ use bedload::model::Problem;
 use bedload::scene::Scene;
 use serde_json::Value;
 
-use crate::support::{REGISTRY, Scratch, project, run};
+use crate::support::{REGISTRY, SAND, Scratch, project, run};
 
 pub fn parsed(name: &str, text: &str, set: &[String]) -> (Case, Problem) {
     let read = REGISTRY.parse(name, "scene.toml", text.to_owned(), set);
@@ -155,22 +155,10 @@ fn a_flow_is_run_compared_and_migrated_on_the_command_line() {
     }
 }
 
-/// Twelve lines, and no model.
-const ALONE: &str = r#"
-format = 2
-scene = "bed"
-case.title = "Medium sand under a steep stream"
-fluid = { density = "1000 kg/m3", viscosity = "1e-3 Pa s" }
-grains = { diameter = "2 mm", density = "2650 kg/m3" }
-bed.thickness = "40 mm"
-flow.depth = "60 mm"
-flow.slope = "1.5 deg"
-"#;
-
 #[test]
 fn a_scene_alone_is_checked_explained_advised_and_compared() {
     let scratch = Scratch::new();
-    scratch.write("sand.toml", ALONE);
+    scratch.write("sand.toml", SAND);
     let valid = scratch.bedload(["check", "sand.toml"]).exits(0).out;
     let taken = |model: &str| valid.lines().any(|line| line.contains(&format!("--model {model}")));
     assert!(["sheet-flow", "two-fluid", "coupled"].iter().all(|model| taken(model)), "{valid}");
@@ -204,7 +192,7 @@ fn a_scene_alone_is_checked_explained_advised_and_compared() {
 
 #[test]
 fn the_stiffness_of_grains_follows_the_weight_on_them() {
-    let contact = |set: &[&str]| format!("{:?}", of("coupled", ALONE, set).unwrap().1.solver());
+    let contact = |set: &[&str]| format!("{:?}", of("coupled", SAND, set).unwrap().1.solver());
     // 40 mm of a packing of 0.6 under water on grains of 2 mm: 1e4 p d.
     let k_n = 1e4 * 1650.0 * 9.81 * 0.6 * 40e-3 * 2e-3;
     let found = contact(&[]);

@@ -63,6 +63,18 @@ impl Answer {
     }
 }
 
+/// A scene alone that three models take.
+pub const SAND: &str = r#"
+format = 2
+scene = "bed"
+case.title = "Medium sand under a steep stream"
+fluid = { density = "1000 kg/m3", viscosity = "1e-3 Pa s" }
+grains = { diameter = "2 mm", density = "2650 kg/m3" }
+bed.thickness = "40 mm"
+flow.depth = "60 mm"
+flow.slope = "1.5 deg"
+"#;
+
 /// A temporary folder in which commands run.
 pub struct Scratch(TempDir);
 

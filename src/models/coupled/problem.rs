@@ -227,11 +227,14 @@ impl Solve for Coupled {
     }
 
     fn takes_s(&self) -> Option<f64> {
-        /// Steps of a grain in a second, with its fluid (docs/grains.md).
+        /// Steps of a grain in a second, with its fluid: 15 to 20 million with 1000 grains on the machine of docs/grains.md.
         const RATE: f64 = 1.5e7;
+        /// Longest step of a bed, whose grains touch several others, over that of a pair: 0.47 to 0.52 in the quick flows.
+        const IN_A_BED: f64 = 0.5;
         let discrete = &self.bed.discrete;
-        let longest =
-            || Some(discrete.safety * stability::of_pair(&law(&self.bed.contact).ok()?, 0.5 * self.bed.mass()));
+        let longest = || {
+            Some(IN_A_BED * discrete.safety * stability::of_pair(&law(&self.bed.contact).ok()?, 0.5 * self.bed.mass()))
+        };
         let step = discrete.time_step.or_else(longest)?;
         Some(self.bed.mobile as f64 * discrete.duration / step / RATE)
     }

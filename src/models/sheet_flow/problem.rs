@@ -241,7 +241,7 @@ impl<F: FrictionLaw> Model for OnMesh<SheetFlow<F>> {
         } else {
             let [wanted, off] = [tolerance, ERROR].map(|share| format!("{} %", significant(100.0 * share, 2)));
             let because = format!("θ = {theta}, and {wanted} is enough: it carries up to {off} more than the grains");
-            ("20 to 26 % more than the grains (docs/kinetic.md)", because)
+            ("20 to 25 % more than the grains (docs/kinetic.md)", because)
         };
         Some(Offer { effort: Effort::Milliseconds, because, off, case: OwnCase::Scene(Vec::new()) })
     }

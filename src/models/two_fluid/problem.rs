@@ -223,7 +223,7 @@ impl Model for OnMesh<TwoFluid> {
         Some(Offer {
             effort: Effort::Seconds,
             because: format!("θ = {theta}, and {wanted} is enough: it is within {off} of the grains"),
-            off: "4 % less to 15 % more than the grains (docs/kinetic.md)",
+            off: "4 % less to 14 % more than the grains (docs/kinetic.md)",
             case: OwnCase::Scene(Vec::new()),
         })
     }
